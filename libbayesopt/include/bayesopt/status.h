@@ -1,0 +1,56 @@
+/**
+ * @file status.h
+ * Status codes and error texts of libbayesopt.
+ *
+ * Every call that can fail returns a bayesopt_status: 0 on success, negative for an error, positive when
+ * it finished for a reason worth telling. The sentence that names what was wrong (which argument,
+ * line, value, and what was expected) is kept per thread for bayesopt_last_error(). The library never
+ * prints and never exits.
+ */
+#ifndef BAYESOPT_STATUS_H
+#define BAYESOPT_STATUS_H
+
+#include <stddef.h>
+
+#if defined(_WIN32)
+#define BAYESOPT_API
+#else
+#define BAYESOPT_API __attribute__((visibility("default")))
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** The one list of codes: X(name, value, text). */
+#define BAYESOPT_STATUS_LIST(X)                                                                       \
+    X(BAYESOPT_OK, 0, "success")                                                                \
+    X(BAYESOPT_ERROR_ARGUMENT, -1, "invalid argument")                                                \
+    X(BAYESOPT_ERROR_MEMORY, -2, "out of memory")                                                     \
+    X(BAYESOPT_ERROR_FILE, -3, "file cannot be read or written")                                      \
+    X(BAYESOPT_ERROR_FORMAT, -4, "malformed file")                                                    \
+    X(BAYESOPT_ERROR_GEOMETRY, -5, "unusable geometry")                                               \
+    X(BAYESOPT_ERROR_NUMERIC, -6, "numerical failure")                                                \
+    X(BAYESOPT_ERROR_CANCELLED, -7, "cancelled by the caller")
+
+typedef enum bayesopt_status {
+#define BAYESOPT_STATUS_ENUM(name, value, text) name = value,
+    BAYESOPT_STATUS_LIST(BAYESOPT_STATUS_ENUM)
+#undef BAYESOPT_STATUS_ENUM
+} bayesopt_status;
+
+/** Short text of a code ("invalid argument"); "unknown status" for anything else. */
+BAYESOPT_API const char *bayesopt_status_string(bayesopt_status status);
+
+/** Detail of the last failure in this thread; "" before the first. Borrowed: valid until the next
+ * failing call of this thread. */
+BAYESOPT_API const char *bayesopt_last_error(void);
+
+/** Version of the library, "major.minor.patch". */
+BAYESOPT_API const char *bayesopt_version(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,37 @@
+#include "error.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+static _Thread_local char last_error[512];
+
+const char *galv_status_string(galv_status status)
+{
+    switch (status) {
+#define GALV_STATUS_TEXT(name, value, text)                                                       \
+    case name:                                                                                     \
+        return text;
+        GALV_STATUS_LIST(GALV_STATUS_TEXT)
+#undef GALV_STATUS_TEXT
+    }
+    return "unknown status";
+}
+
+const char *galv_last_error(void)
+{
+    return last_error;
+}
+
+const char *galv_version(void)
+{
+    return GALV_VERSION_STRING;
+}
+
+galv_status galv_fail(galv_status code, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    vsnprintf(last_error, sizeof last_error, format, args);
+    va_end(args);
+    return code;
+}

@@ -1,0 +1,9 @@
+/* How libgalv reports a failure: return galv_fail(code, "patch %zu: knot %zu decreases", p, k). */
+#ifndef GALV_ERROR_H
+#define GALV_ERROR_H
+
+#include <galv/status.h>
+
+__attribute__((format(printf, 2, 3))) galv_status galv_fail(galv_status code, const char *format, ...);
+
+#endif

@@ -1,0 +1,205 @@
+#include "cli.h"
+
+#include <cblas.h>
+#include <errno.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+static const char *command_name = "?";
+
+void cli_set_name(const char *name)
+{
+    command_name = name;
+}
+
+const char *cli_name(void)
+{
+    return command_name;
+}
+
+int cli_fail(const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    fprintf(stderr, "%s: ", command_name);
+    vfprintf(stderr, format, args);
+    fputc('\n', stderr);
+    va_end(args);
+    return CLI_FAILED;
+}
+
+int cli_usage(const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    fprintf(stderr, "%s: ", command_name);
+    vfprintf(stderr, format, args);
+    fprintf(stderr, " (try '%s --help')\n", command_name);
+    va_end(args);
+    return CLI_USAGE;
+}
+
+int cli_print(const char *text)
+{
+    if (fputs(text, stdout) == EOF || fflush(stdout) == EOF)
+        return cli_fail("standard output: %s", strerror(errno));
+    return CLI_OK;
+}
+
+int cli_version(void)
+{
+    size_t length = strcspn(command_name, " ");
+    printf("%.*s %s\n", (int)length, command_name, TOOL_VERSION);
+    return fflush(stdout) == EOF ? CLI_FAILED : CLI_OK;
+}
+
+void cli_set_threads(int threads)
+{
+#ifdef _OPENMP
+    omp_set_num_threads(threads);
+#endif
+    openblas_set_num_threads(threads);
+}
+
+bool cli_parse_double(const char *text, double *out)
+{
+    char *end;
+    errno = 0;
+    double value = strtod(text, &end);
+    if (end == text || *end || !isfinite(value))
+        return false;
+    *out = value;
+    return true;
+}
+
+bool cli_parse_size(const char *text, size_t *out)
+{
+    if (*text < '0' || *text > '9')
+        return false;
+    char *end;
+    errno = 0;
+    unsigned long long value = strtoull(text, &end, 10);
+    if (*end || errno)
+        return false;
+    *out = (size_t)value;
+    return true;
+}
+
+bool cli_parse_int(const char *text, int *out)
+{
+    char *end;
+    errno = 0;
+    long value = strtol(text, &end, 10);
+    if (end == text || *end || errno || value < -2147483647 || value > 2147483647)
+        return false;
+    *out = (int)value;
+    return true;
+}
+
+enum { MOST_NUMBERS = 100000 };
+
+static bool parse_range(char *copy, double **out, size_t *n)
+{
+    double part[3];
+    char *state = NULL, *token = strtok_r(copy, ":", &state);
+    int count = 0;
+    for (; token && count < 3; token = strtok_r(NULL, ":", &state))
+        if (!cli_parse_double(token, &part[count++]))
+            return false;
+    if (count != 3 || token || part[2] == 0 || (part[1] - part[0]) / part[2] < 0)
+        return false;
+    /* Half a step in a million forgives the rounding of 0.2:0.45:0.05. */
+    double steps = floor((part[1] - part[0]) / part[2] + 1e-6);
+    if (!(steps < MOST_NUMBERS))
+        return false;
+    *n = (size_t)steps + 1;
+    *out = malloc(*n * sizeof **out);
+    if (!*out)
+        return false;
+    for (size_t i = 0; i < *n; i++)
+        (*out)[i] = part[0] + (double)i * part[2];
+    return true;
+}
+
+static bool parse_commas(char *copy, double **out, size_t *n)
+{
+    size_t most = 1;
+    for (const char *c = copy; *c; c++)
+        most += *c == ',';
+    if (most > MOST_NUMBERS || !(*out = malloc(most * sizeof **out)))
+        return false;
+    *n = 0;
+    for (char *start = copy; start;) {
+        char *comma = strchr(start, ',');
+        if (comma)
+            *comma = '\0';
+        if (!cli_parse_double(start, &(*out)[(*n)++])) {
+            free(*out);
+            *out = NULL;
+            return false;
+        }
+        start = comma ? comma + 1 : NULL;
+    }
+    return true;
+}
+
+bool cli_parse_list(const char *text, double **out, size_t *n)
+{
+    char *copy = strdup(text);
+    if (!copy)
+        return false;
+    bool ok = strchr(text, ':') ? parse_range(copy, out, n) : parse_commas(copy, out, n);
+    free(copy);
+    return ok;
+}
+
+double cli_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+void cli_progress_start(struct cli_progress *progress, const char *label)
+{
+    *progress = (struct cli_progress){label, cli_seconds(), 0, isatty(STDERR_FILENO) == 1};
+}
+
+static void print_duration(double seconds)
+{
+    if (seconds < 90)
+        fprintf(stderr, "%.0f s", seconds);
+    else
+        fprintf(stderr, "%.0f min %02d s", floor(seconds / 60), (int)fmod(seconds, 60));
+}
+
+void cli_progress_update(struct cli_progress *progress, double fraction, const char *detail)
+{
+    double now = cli_seconds();
+    if (!progress->active || (now - progress->last_shown < 0.2 && fraction < 1))
+        return;
+    progress->last_shown = now;
+    fprintf(stderr, "\r\033[K%s: %3.0f %%", progress->label, 100 * fraction);
+    if (fraction > 0.02 || now - progress->started > 10) {
+        fputs(", ", stderr);
+        print_duration(fraction > 0 ? (now - progress->started) * (1 - fraction) / fraction : 0);
+        fputs(" left", stderr);
+    }
+    if (detail && *detail)
+        fprintf(stderr, ", %s", detail);
+    fflush(stderr);
+}
+
+void cli_progress_end(struct cli_progress *progress)
+{
+    if (progress->active && progress->last_shown > 0)
+        fputs("\r\033[K", stderr);
+    progress->active = false;
+}

@@ -1,0 +1,72 @@
+/* What every command of the suite does alike: exit codes, messages, options that all commands take,
+ * number lists, progress on a terminal, and files that appear whole or not at all. */
+#ifndef TOOLS_CLI_H
+#define TOOLS_CLI_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+enum { CLI_OK = 0, CLI_FAILED = 1, CLI_USAGE = 2 };
+
+/* Names the command in every message ("nurbs skin"). Borrowed: keep the string. */
+void cli_set_name(const char *name);
+const char *cli_name(void);
+
+/* "name: message" on stderr; returns CLI_FAILED or CLI_USAGE so that callers write
+ * return cli_fail("%s: ...", path). The usage form adds "try 'name --help'". */
+__attribute__((format(printf, 1, 2))) int cli_fail(const char *format, ...);
+__attribute__((format(printf, 1, 2))) int cli_usage(const char *format, ...);
+
+/* Prints help or version on stdout and returns CLI_OK, or CLI_FAILED if stdout cannot be written. */
+int cli_print(const char *text);
+int cli_version(void);
+
+/* Applies --threads N to OpenMP and OpenBLAS alike. */
+void cli_set_threads(int threads);
+
+/* Strict numbers: the whole string, finite; false leaves *out alone. */
+bool cli_parse_double(const char *text, double *out);
+bool cli_parse_size(const char *text, size_t *out);
+bool cli_parse_int(const char *text, int *out);
+
+/* "0.3", "0.2,0.3,0.35" or "0.2:0.45:0.05" (both ends kept). Allocates *out, the caller frees it.
+ * false: not such a list, or more than 100000 numbers. */
+bool cli_parse_list(const char *text, double **out, size_t *n);
+
+/* A progress line on stderr with an estimate of the time left; silent unless stderr is a terminal. */
+struct cli_progress {
+    const char *label;
+    double started, last_shown;
+    bool active;
+};
+void cli_progress_start(struct cli_progress *progress, const char *label);
+void cli_progress_update(struct cli_progress *progress, double fraction, const char *detail);
+void cli_progress_end(struct cli_progress *progress);
+
+/* Seconds of a monotonic clock. */
+double cli_seconds(void);
+
+/* A file written beside PATH and renamed onto it once complete and on disk. Writing goes to
+ * file.stream. Commit returns false with errno set and removes the temporary file. */
+struct cli_file {
+    FILE *stream;
+    char *path, *temporary;
+};
+bool cli_file_open(struct cli_file *file, const char *path);
+bool cli_file_commit(struct cli_file *file);
+void cli_file_abandon(struct cli_file *file);
+
+/* A CSV table of numbers with a header line; '#' lines are comments. Columns are found by name. */
+struct cli_table {
+    size_t rows, columns;
+    char **names;
+    double *values; /* row by row */
+};
+/* PATH "-" reads stdin. On failure prints the sentence with the line at fault and returns false. */
+bool cli_table_read(const char *path, struct cli_table *table);
+void cli_table_free(struct cli_table *table);
+/* Index of a column, or -1. */
+int cli_table_column(const struct cli_table *table, const char *name);
+
+#endif
