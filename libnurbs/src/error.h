@@ -1,9 +1,11 @@
-/* How libnurbs reports a failure: return nurbs_fail(code, "patch %zu: knot %zu decreases", p, k). */
+/* How libnurbs reports a failure: return nurbs_fail(code, "patch %zu: knot %zu decreases", p, k).
+ */
 #ifndef NURBS_ERROR_H
 #define NURBS_ERROR_H
 
 #include <nurbs/status.h>
 
-__attribute__((format(printf, 2, 3))) nurbs_status nurbs_fail(nurbs_status code, const char *format, ...);
+__attribute__((format(printf, 2, 3))) nurbs_status nurbs_fail(nurbs_status code, const char *format,
+                                                              ...);
 
 #endif

@@ -18,7 +18,8 @@ const char *cli_name(void);
 __attribute__((format(printf, 1, 2))) int cli_fail(const char *format, ...);
 __attribute__((format(printf, 1, 2))) int cli_usage(const char *format, ...);
 
-/* Prints help or version on stdout and returns CLI_OK, or CLI_FAILED if stdout cannot be written. */
+/* Prints help or version on stdout and returns CLI_OK, or CLI_FAILED if stdout cannot be written.
+ */
 int cli_print(const char *text);
 int cli_version(void);
 
@@ -34,7 +35,8 @@ bool cli_parse_int(const char *text, int *out);
  * false: not such a list, or more than 100000 numbers. */
 bool cli_parse_list(const char *text, double **out, size_t *n);
 
-/* A progress line on stderr with an estimate of the time left; silent unless stderr is a terminal. */
+/* A progress line on stderr with an estimate of the time left; silent unless stderr is a terminal.
+ */
 struct cli_progress {
     const char *label;
     double started, last_shown;

@@ -60,7 +60,8 @@ static void sync_folder(const char *path)
 
 bool cli_file_commit(struct cli_file *file)
 {
-    bool ok = fflush(file->stream) == 0 && !ferror(file->stream) && fsync(fileno(file->stream)) == 0;
+    bool ok =
+        fflush(file->stream) == 0 && !ferror(file->stream) && fsync(fileno(file->stream)) == 0;
     int reason = errno;
     if (fclose(file->stream) != 0 && ok) {
         ok = false;

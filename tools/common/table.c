@@ -44,7 +44,8 @@ static bool read_row(char *line, const char *path, size_t number, double *row, s
             *comma = '\0';
         char *text = trim(start);
         if (k < columns && !cli_parse_double(text, &row[k])) {
-            cli_fail("%s:%zu: field %zu is '%s', expected a finite number", path, number, k + 1, text);
+            cli_fail("%s:%zu: field %zu is '%s', expected a finite number", path, number, k + 1,
+                     text);
             return false;
         }
         start = comma ? comma + 1 : NULL;

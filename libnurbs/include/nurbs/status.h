@@ -2,10 +2,10 @@
  * @file status.h
  * Status codes and error texts of libnurbs.
  *
- * Every call that can fail returns a nurbs_status: 0 on success, negative for an error, positive when
- * it finished for a reason worth telling. The sentence that names what was wrong (which argument,
- * line, value, and what was expected) is kept per thread for nurbs_last_error(). The library never
- * prints and never exits.
+ * Every call that can fail returns a nurbs_status: 0 on success, negative for an error, positive
+ * when it finished for a reason worth telling. The sentence that names what was wrong (which
+ * argument, line, value, and what was expected) is kept per thread for nurbs_last_error(). The
+ * library never prints and never exits.
  */
 #ifndef NURBS_STATUS_H
 #define NURBS_STATUS_H
@@ -24,7 +24,7 @@ extern "C" {
 
 /** The one list of codes: X(name, value, text). */
 #define NURBS_STATUS_LIST(X)                                                                       \
-    X(NURBS_OK, 0, "success")                                                                \
+    X(NURBS_OK, 0, "success")                                                                      \
     X(NURBS_ERROR_ARGUMENT, -1, "invalid argument")                                                \
     X(NURBS_ERROR_MEMORY, -2, "out of memory")                                                     \
     X(NURBS_ERROR_FILE, -3, "file cannot be read or written")                                      \

@@ -1,0 +1,46 @@
+/**
+ * @file integrals.h
+ * Area, volume and moments of patches by Gauss quadrature over knot spans; volumes by the
+ * divergence theorem.
+ */
+#ifndef NURBS_INTEGRALS_H
+#define NURBS_INTEGRALS_H
+
+#include <nurbs/patches.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Integrals over a half hull (y >= 0) that closes at y = 0 and z = level, doubled for both sides.
+ */
+typedef struct nurbs_hydrostatics {
+    double wetted_area;       /**< m^2, both sides, without transom */
+    double volume;            /**< m^3, displaced below the level */
+    double centroid[3];       /**< of that volume, m; y = 0 */
+    double waterplane_area;   /**< m^2 */
+    double waterplane_centre; /**< x of its centroid (LCF), m */
+    double waterplane_inertia_x,
+        waterplane_inertia_y; /**< m^4 about the x axis, and about y through LCF */
+    double beam;              /**< largest breadth at the level, m */
+    double draft;             /**< depth of the deepest point below the level, m */
+    double keel_draft;        /**< depth of the keel amidships (x halfway along the waterline), m */
+    double x_aft, x_fore;     /**< ends of the waterline, m (of the body when submerged) */
+    double transom_area; /**< m^2, both sides: immersed area of an open stern end, 0 if closed */
+    double section_area_max, section_area_max_x; /**< m^2, both sides, and where */
+    double error; /**< relative, estimated from a second quadrature order */
+} nurbs_hydrostatics;
+
+/** Wetted patches as made by nurbs_surface_wetted, or a submerged body (level above it). */
+NURBS_API nurbs_status nurbs_hydrostatics_compute(size_t n, const nurbs_surface *const *wetted,
+                                                  double level, nurbs_hydrostatics *result);
+
+/** Area of one surface, m^2, relative error estimate in *error (NULL allowed). */
+NURBS_API nurbs_status nurbs_surface_area(const nurbs_surface *surface, double *area,
+                                          double *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

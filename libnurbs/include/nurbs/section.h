@@ -1,0 +1,37 @@
+/**
+ * @file section.h
+ * Planes through surfaces: where a hull meets the still water, and the wetted hull below it.
+ */
+#ifndef NURBS_SECTION_H
+#define NURBS_SECTION_H
+
+#include <nurbs/surface.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** The part of a hull below z = level as one surface with v = 0 exactly on the waterline.
+ *
+ * Every section (u = constant) is cut where it crosses the level, re-parametrised from there to the
+ * lower end of the section, and the cut sections are skinned again on common knots. The wetted
+ * surface runs along the same u (interior u knots kept), v from the waterline (v = 0, z = level
+ * exactly) to the keel (v = 1). Edges in the plane y = 0 stay in it exactly and y never becomes
+ * negative on a half hull. Sections of u that do not reach the level at an end of the hull (an
+ * overhanging bow or stern) are left out: the surface then starts where the profile meets the
+ * level. Errors (NURBS_ERROR_GEOMETRY, with the place): the hull does not cross the level, a
+ * section crosses it more than once, or the surface is folded.
+ * @param tolerance  metres; how far the cut surface may lie from the original (1e-5 of the length)
+ */
+NURBS_API nurbs_status nurbs_surface_wetted(const nurbs_surface *hull, double level,
+                                            double tolerance, nurbs_surface **wetted);
+
+/** Checks for folds: the normal Su x Sv must not reverse against its neighbours. Fills the first
+ * place (u,v) if there is one and returns NURBS_ERROR_GEOMETRY; uv may be NULL. */
+NURBS_API nurbs_status nurbs_surface_check_fold(const nurbs_surface *surface, double uv[2]);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,37 @@
+/**
+ * @file simplify.h
+ * Fewer control points within a certified Euclidean tolerance, by knot removal (Tiller 1992; Lyche
+ * and Morken 1987) on the hull's own parametrisation.
+ */
+#ifndef NURBS_SIMPLIFY_H
+#define NURBS_SIMPLIFY_H
+
+#include <nurbs/curve.h>
+#include <nurbs/surface.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Flags of nurbs_surface_simplify. */
+enum {
+    NURBS_KEEP_EDGES =
+        1, /**< the four boundary curves keep their planes: an edge that lies in y = 0 or
+                z = 0 (any coordinate plane) stays in it exactly, corners stay exactly */
+    NURBS_KEEP_KINKS = 2 /**< knots of multiplicity >= degree are not touched */
+};
+
+/** Removes as many knots as the tolerance allows.
+ * @param tolerance  metres, > 0; largest Euclidean distance at equal parameters
+ * @param bound      fills a proven upper bound of that distance, <= tolerance; NULL allowed */
+NURBS_API nurbs_status nurbs_curve_simplify(const nurbs_curve *curve, double tolerance,
+                                            nurbs_curve **result, double *bound);
+NURBS_API nurbs_status nurbs_surface_simplify(const nurbs_surface *surface, double tolerance,
+                                              unsigned flags, nurbs_surface **result,
+                                              double *bound);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,67 @@
+/**
+ * @file surface.h
+ * Tensor-product NURBS surfaces. Objects are immutable after creation, so any number of threads may
+ * read one. Direction 0 is u, direction 1 is v.
+ */
+#ifndef NURBS_SURFACE_H
+#define NURBS_SURFACE_H
+
+#include <nurbs/status.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct nurbs_surface nurbs_surface;
+
+/** Creates a surface of size[0] x size[1] control points (u slow, v fast); copies all arrays.
+ * @param degree   degree[2], 1 to NURBS_MAX_DEGREE
+ * @param size     size[2], each > its degree
+ * @param knots_u  size[0] + degree[0] + 1 knots; knots_v likewise
+ * @param points   3 * size[0] * size[1], Cartesian, metres
+ * @param weights  size[0] * size[1], all > 0; NULL: polynomial
+ * Errors: bad knots, NaN or Inf anywhere, weight <= 0 (each named by its index). */
+NURBS_API nurbs_status nurbs_surface_create(const int degree[2], const size_t size[2],
+                                            const double *knots_u, const double *knots_v,
+                                            const double *points, const double *weights,
+                                            nurbs_surface **surface);
+NURBS_API nurbs_status nurbs_surface_copy(const nurbs_surface *surface, nurbs_surface **copy);
+/** Takes NULL. */
+NURBS_API void nurbs_surface_free(nurbs_surface *surface);
+
+NURBS_API int nurbs_surface_degree(const nurbs_surface *surface, int direction);
+NURBS_API size_t nurbs_surface_size(const nurbs_surface *surface, int direction);
+/** Borrowed from the surface. weights: NULL when polynomial. */
+NURBS_API const double *nurbs_surface_knots(const nurbs_surface *surface, int direction);
+NURBS_API const double *nurbs_surface_points(const nurbs_surface *surface);
+NURBS_API const double *nurbs_surface_weights(const nurbs_surface *surface);
+
+/** Derivatives of a point, per order: 1, 3 or 6 triples S, Su, Sv, Suu, Suv, Svv. */
+#define NURBS_SURFACE_TRIPLES(order) (((order) + 1) * ((order) + 2) / 2)
+
+/** Points and derivatives at n scattered parameters.
+ * @param order  0, 1 or 2
+ * @param uv     n pairs u,v inside the domain (else an error naming the index)
+ * @param out    fills out[n][NURBS_SURFACE_TRIPLES(order)][3]
+ * At interior knots the right-hand limit, at the ends of the domain the left-hand one. */
+NURBS_API nurbs_status nurbs_surface_eval(const nurbs_surface *surface, int order, size_t n,
+                                          const double *uv, double *out);
+
+/** The same on the tensor grid u[nu] x v[nv]: fills out[nu][nv][triples][3]. Basis functions are
+ * evaluated once per axis, so this is several times faster than scattered points. u and v must each
+ * be non-decreasing. Needs no memory beyond out. */
+NURBS_API nurbs_status nurbs_surface_eval_grid(const nurbs_surface *surface, int order, size_t nu,
+                                               const double *u, size_t nv, const double *v,
+                                               double *out);
+
+/** Basis functions that do not vanish at (u,v), rational when the surface is, with derivatives:
+ * fills values[triples][(pu+1)*(pv+1)] for the functions (span[0]-pu+a, span[1]-pv+b), a slow, b
+ * fast, and span[2]. order 0, 1 or 2. */
+NURBS_API nurbs_status nurbs_surface_basis(const nurbs_surface *surface, int order, double u,
+                                           double v, size_t span[2], double *values);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
