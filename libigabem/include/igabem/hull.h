@@ -1,0 +1,55 @@
+/**
+ * @file hull.h
+ * The wetted body as the solver sees it: NURBS patches with outward normals, their waterline, their
+ * hydrostatics and the waterline figures that the formulation needs.
+ *
+ * Axes: x forward (the body advances towards +x, stream -U e_x), y to port, z up, z = 0 the still
+ * water.
+ */
+#ifndef IGABEM_HULL_H
+#define IGABEM_HULL_H
+
+#include <igabem/status.h>
+#include <nurbs/integrals.h>
+#include <nurbs/surface.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct igabem_hull igabem_hull;
+
+enum {
+    IGABEM_SYMMETRIC = 1 /**< patches cover y >= 0 only; the other side is their mirror image */
+};
+
+/** Creates a hull; copies the patches, turns their normals outwards, finds the edges on z = 0, y =
+ * 0, collapsed edges and an open transom. Errors (IGABEM_ERROR_GEOMETRY, with patch and place): a
+ * patch above z = 0 (clearance 1e-6 of the length), y < 0 on a symmetric half, a fold, a normal
+ * that vanishes inside a patch. */
+IGABEM_API igabem_status igabem_hull_create(const nurbs_surface *const *patches, size_t n,
+                                            unsigned flags, igabem_hull **hull);
+IGABEM_API void igabem_hull_free(igabem_hull *hull);
+
+/** Reference length of Froude number and coefficients, m; default: waterline length, or the body's
+ * length when submerged. */
+IGABEM_API igabem_status igabem_hull_set_length(igabem_hull *hull, double length);
+
+/** What is known of the hull before any solve. */
+typedef struct igabem_hull_info {
+    double length;                   /**< reference length, m */
+    nurbs_hydrostatics hydrostatics; /**< at z = 0 */
+    int surface_piercing;            /**< has an edge on z = 0 */
+    int transom;                     /**< has an open immersed stern end */
+    double nu_s; /**< largest |x component| of the waterline normal outside stem arcs */
+    size_t patches;
+} igabem_hull_info;
+
+/** Fills info. */
+IGABEM_API void igabem_hull_get_info(const igabem_hull *hull, igabem_hull_info *info);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,13 @@
+/**
+ * @file igabem.h
+ * Isogeometric boundary elements for steady ship waves: everything of libigabem in one include.
+ */
+#ifndef IGABEM_IGABEM_H
+#define IGABEM_IGABEM_H
+
+#include <igabem/hull.h>
+#include <igabem/kelvin.h>
+#include <igabem/solve.h>
+#include <igabem/status.h>
+
+#endif

@@ -1,0 +1,145 @@
+/**
+ * @file solve.h
+ * Steady potential flow past a hull by isogeometric collocation: source density in the NURBS basis
+ * of the hull itself (refined on request), Greville points, and the resistance of the waves it
+ * makes.
+ *
+ *     sigma/2 + Int_S sigma dG/dn dS - (1/k0) Oint chi sigma n_x nu_x dG/dn dl = U n_x
+ *
+ * (Brard 1972; Baar and Price 1988; Belibassakis et al. 2013). docs/theory.md has every sign.
+ */
+#ifndef IGABEM_SOLVE_H
+#define IGABEM_SOLVE_H
+
+#include <igabem/hull.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** X(enumerator, name on the command line, one line) */
+#define IGABEM_FORMULATION_LIST(X)                                                                 \
+    X(IGABEM_AUTOMATIC, "auto", "neumann-kelvin-stern with a transom, else neumann-kelvin")        \
+    X(IGABEM_NEUMANN_KELVIN, "neumann-kelvin", "Kelvin sources, Brard line term, flat filter")     \
+    X(IGABEM_NEUMANN_KELVIN_STERN, "neumann-kelvin-stern",                                         \
+      "the same, rows aft of x_s see the double-body kernel only")                                 \
+    X(IGABEM_DOUBLE_BODY_KOCHIN, "double-body-kochin",                                             \
+      "double-body sources, resistance by their Kochin function")                                  \
+    X(IGABEM_HOGNER, "hogner", "sigma = U n_x on the hull (no solve)")                             \
+    X(IGABEM_MICHELL, "michell", "thin ship: the same sources moved to the centre plane")
+
+typedef enum igabem_formulation {
+#define IGABEM_FORMULATION_ENUM(enumerator, name, text) enumerator,
+    IGABEM_FORMULATION_LIST(IGABEM_FORMULATION_ENUM)
+#undef IGABEM_FORMULATION_ENUM
+} igabem_formulation;
+
+/** Name of a formulation, NULL if unknown; and back (returns 0 if there is no such name). */
+IGABEM_API const char *igabem_formulation_name(igabem_formulation formulation);
+IGABEM_API int igabem_formulation_parse(const char *name, igabem_formulation *formulation);
+
+/** Which Green function: the simple ones test the machinery. */
+typedef enum igabem_kernel {
+    IGABEM_KERNEL_KELVIN,      /**< -1/r + 1/r' + k0 (N + W) */
+    IGABEM_KERNEL_DOUBLE_BODY, /**< -1/r - 1/r': rigid still water, the limit Fr -> 0 */
+    IGABEM_KERNEL_RANKINE      /**< -1/r: unbounded fluid */
+} igabem_kernel;
+
+/** Receives progress in [0,1]; a non-zero return cancels (IGABEM_ERROR_CANCELLED). */
+typedef int (*igabem_progress)(void *data, double fraction);
+
+/** All settings of a solve. NAN means "by the rule that the field's comment gives". */
+typedef struct igabem_options {
+    double froude;                  /**< U / sqrt(g L), > 0; no default for the Kelvin kernel */
+    double gravity;                 /**< m/s^2; 9.80665 */
+    double density;                 /**< kg/m^3; 1000 */
+    igabem_kernel kernel;           /**< IGABEM_KERNEL_KELVIN */
+    igabem_formulation formulation; /**< IGABEM_AUTOMATIC */
+
+    int refine; /**< each knot span split in this many, >= 1; 1 (l of the paper's eq. 14) */
+    int degree; /**< least degree of the density; 3: lower geometry is elevated */
+
+    int line_term;        /**< Brard's waterline integral on (1) or off (0); 1 */
+    double cutoff_angle;  /**< t_c of the filter exp(-((1+t^2)/(1+t_c^2))^2), t = tan(theta); NAN:
+                             cutoff_factor/nu_s;  INFINITY: no filter (the default when submerged) */
+    double cutoff_factor; /**< 1.2 */
+    double stem_limit;    /**< nu_c of chi = 1/(1+(|nu_x|/nu_c)^4); NAN: 2 nu_s, with a transom 1.44
+                             nu_s */
+    double stern_length;  /**< x_s - x_aft of neumann-kelvin-stern as a share of the length; 0.35 */
+    double stern_blend;   /**< width of the switch there as a share of the length; 0.014 */
+    double spectrum_limit; /**< largest t of the Kochin integral when surface-piercing; 20 */
+
+    double tolerance;         /**< relative error asked of the quadrature; 1e-5 */
+    int sensitivity;          /**< also C_w at 0.85 and 1.15 of the cut-off; 0 */
+    int threads;              /**< 0: as OpenMP decides */
+    igabem_progress progress; /**< NULL: none */
+    void *progress_data;
+} igabem_options;
+
+/** Fills the defaults. */
+IGABEM_API void igabem_options_init(igabem_options *options);
+
+/** Replaces every NAN and IGABEM_AUTOMATIC by what the rules give on this hull. Over an
+ * optimisation, freeze once on the parent hull: C_w is then a smooth function of the shape. */
+IGABEM_API igabem_status igabem_options_freeze(const igabem_hull *hull, igabem_options *options);
+
+typedef struct igabem_solution igabem_solution;
+
+/** Solves. options->froude is ignored by the double-body and Rankine kernels. */
+IGABEM_API igabem_status igabem_solve(const igabem_hull *hull, const igabem_options *options,
+                                      igabem_solution **solution);
+/** Several settings on one hull (formulations, Froude numbers, filters): everything that they
+ * share, such as the Rankine integrals of equal refine, degree and tolerance, is computed once.
+ * Fills solutions[n]; on error all are NULL. */
+IGABEM_API igabem_status igabem_solve_many(const igabem_hull *hull, size_t n,
+                                           const igabem_options *options,
+                                           igabem_solution **solutions);
+IGABEM_API void igabem_solution_free(igabem_solution *solution);
+
+/** Resistance and what qualifies it. Coefficients: R / (rho U^2 S / 2), S both sides at rest. NAN
+ * where a formulation has no such figure. */
+typedef struct igabem_forces {
+    double speed, k0;           /**< U, m/s; g/U^2, 1/m */
+    double wetted_area, volume; /**< m^2, m^3 */
+    double rw;                  /**< wave resistance by the Kochin function, N */
+    double cw;                  /**< its coefficient */
+    double cw_l2;               /**< rw / (rho U^2 L^2 / 2) */
+    double cw_pressure;         /**< by integrating the pressure over the hull */
+    double cw_pressure_linear;  /**< the same without the quadratic and run-up terms */
+    double cw_cutoff_lower,
+        cw_cutoff_upper;        /**< cw at 0.85 and 1.15 of the cut-off (options.sensitivity) */
+    double share_beyond_cutoff; /**< part of cw from t > t_c */
+    double sinkage, trim;       /**< linear: m, positive down; radians, positive bow up */
+    double condition;           /**< 1-norm estimate of the matrix */
+    double seconds;             /**< wall clock of the solve */
+    size_t dofs;                /**< unknowns on the modelled part of the hull */
+} igabem_forces;
+
+/** Fills forces. */
+IGABEM_API igabem_status igabem_forces_compute(const igabem_solution *solution,
+                                               igabem_forces *forces);
+
+/** The settings as they were used: no NAN, no automatic. Borrowed. */
+IGABEM_API const igabem_options *igabem_solution_options(const igabem_solution *solution);
+
+/** Free-surface elevation at n points (x, y), m: zeta = (U/g) phi_x at z = 0, filtered like the
+ * solution. Fills zeta[n]; NAN inside the waterplane. */
+IGABEM_API igabem_status igabem_wave_elevation(const igabem_solution *solution, size_t n,
+                                               const double *x, const double *y, double *zeta);
+
+/** Disturbance velocity grad phi on the hull at n parameters uv of a patch: fills velocity[n][3],
+ * m/s; pressure coefficient Cp = p_dyn/(rho U^2/2) into cp[n] if not NULL. */
+IGABEM_API igabem_status igabem_surface_velocity(const igabem_solution *solution, size_t patch,
+                                                 size_t n, const double *uv, double *velocity,
+                                                 double *cp);
+
+/** Kochin function at n wave angles t = tan(theta): fills h[n][2], real and imaginary part, and, if
+ * not NULL, dcw[n] = d C_w / d t. */
+IGABEM_API igabem_status igabem_kochin(const igabem_solution *solution, size_t n, const double *t,
+                                       double *h, double *dcw);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
