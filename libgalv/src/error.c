@@ -8,7 +8,7 @@ static _Thread_local char last_error[512];
 const char *galv_status_string(galv_status status)
 {
     switch (status) {
-#define GALV_STATUS_TEXT(name, value, text)                                                       \
+#define GALV_STATUS_TEXT(name, value, text)                                                        \
     case name:                                                                                     \
         return text;
         GALV_STATUS_LIST(GALV_STATUS_TEXT)

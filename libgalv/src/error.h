@@ -4,6 +4,7 @@
 
 #include <galv/status.h>
 
-__attribute__((format(printf, 2, 3))) galv_status galv_fail(galv_status code, const char *format, ...);
+__attribute__((format(printf, 2, 3))) galv_status galv_fail(galv_status code, const char *format,
+                                                            ...);
 
 #endif

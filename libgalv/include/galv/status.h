@@ -2,10 +2,10 @@
  * @file status.h
  * Status codes and error texts of libgalv.
  *
- * Every call that can fail returns a galv_status: 0 on success, negative for an error, positive when
- * it finished for a reason worth telling. The sentence that names what was wrong (which argument,
- * line, value, and what was expected) is kept per thread for galv_last_error(). The library never
- * prints and never exits.
+ * Every call that can fail returns a galv_status: 0 on success, negative for an error, positive
+ * when it finished for a reason worth telling. The sentence that names what was wrong (which
+ * argument, line, value, and what was expected) is kept per thread for galv_last_error(). The
+ * library never prints and never exits.
  */
 #ifndef GALV_STATUS_H
 #define GALV_STATUS_H
@@ -23,14 +23,14 @@ extern "C" {
 #endif
 
 /** The one list of codes: X(name, value, text). */
-#define GALV_STATUS_LIST(X)                                                                       \
-    X(GALV_OK, 0, "success")                                                                \
-    X(GALV_ERROR_ARGUMENT, -1, "invalid argument")                                                \
-    X(GALV_ERROR_MEMORY, -2, "out of memory")                                                     \
-    X(GALV_ERROR_FILE, -3, "file cannot be read or written")                                      \
-    X(GALV_ERROR_FORMAT, -4, "malformed file")                                                    \
-    X(GALV_ERROR_GEOMETRY, -5, "unusable geometry")                                               \
-    X(GALV_ERROR_NUMERIC, -6, "numerical failure")                                                \
+#define GALV_STATUS_LIST(X)                                                                        \
+    X(GALV_OK, 0, "success")                                                                       \
+    X(GALV_ERROR_ARGUMENT, -1, "invalid argument")                                                 \
+    X(GALV_ERROR_MEMORY, -2, "out of memory")                                                      \
+    X(GALV_ERROR_FILE, -3, "file cannot be read or written")                                       \
+    X(GALV_ERROR_FORMAT, -4, "malformed file")                                                     \
+    X(GALV_ERROR_GEOMETRY, -5, "unusable geometry")                                                \
+    X(GALV_ERROR_NUMERIC, -6, "numerical failure")                                                 \
     X(GALV_ERROR_CANCELLED, -7, "cancelled by the caller")
 
 typedef enum galv_status {
