@@ -8,7 +8,7 @@ static _Thread_local char last_error[512];
 const char *bayesopt_status_string(bayesopt_status status)
 {
     switch (status) {
-#define BAYESOPT_STATUS_TEXT(name, value, text)                                                       \
+#define BAYESOPT_STATUS_TEXT(name, value, text)                                                    \
     case name:                                                                                     \
         return text;
         BAYESOPT_STATUS_LIST(BAYESOPT_STATUS_TEXT)

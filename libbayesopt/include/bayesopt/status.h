@@ -2,10 +2,10 @@
  * @file status.h
  * Status codes and error texts of libbayesopt.
  *
- * Every call that can fail returns a bayesopt_status: 0 on success, negative for an error, positive when
- * it finished for a reason worth telling. The sentence that names what was wrong (which argument,
- * line, value, and what was expected) is kept per thread for bayesopt_last_error(). The library never
- * prints and never exits.
+ * Every call that can fail returns a bayesopt_status: 0 on success, negative for an error, positive
+ * when it finished for a reason worth telling. The sentence that names what was wrong (which
+ * argument, line, value, and what was expected) is kept per thread for bayesopt_last_error(). The
+ * library never prints and never exits.
  */
 #ifndef BAYESOPT_STATUS_H
 #define BAYESOPT_STATUS_H
@@ -23,15 +23,19 @@ extern "C" {
 #endif
 
 /** The one list of codes: X(name, value, text). */
-#define BAYESOPT_STATUS_LIST(X)                                                                       \
-    X(BAYESOPT_OK, 0, "success")                                                                \
-    X(BAYESOPT_ERROR_ARGUMENT, -1, "invalid argument")                                                \
-    X(BAYESOPT_ERROR_MEMORY, -2, "out of memory")                                                     \
-    X(BAYESOPT_ERROR_FILE, -3, "file cannot be read or written")                                      \
-    X(BAYESOPT_ERROR_FORMAT, -4, "malformed file")                                                    \
-    X(BAYESOPT_ERROR_GEOMETRY, -5, "unusable geometry")                                               \
-    X(BAYESOPT_ERROR_NUMERIC, -6, "numerical failure")                                                \
-    X(BAYESOPT_ERROR_CANCELLED, -7, "cancelled by the caller")
+#define BAYESOPT_STATUS_LIST(X)                                                                    \
+    X(BAYESOPT_OK, 0, "success")                                                                   \
+    X(BAYESOPT_ERROR_ARGUMENT, -1, "invalid argument")                                             \
+    X(BAYESOPT_ERROR_MEMORY, -2, "out of memory")                                                  \
+    X(BAYESOPT_ERROR_FILE, -3, "file cannot be read or written")                                   \
+    X(BAYESOPT_ERROR_FORMAT, -4, "malformed file")                                                 \
+    X(BAYESOPT_ERROR_INFEASIBLE, -5, "no point satisfies the input constraints")                   \
+    X(BAYESOPT_ERROR_NUMERIC, -6, "numerical failure")                                             \
+    X(BAYESOPT_ERROR_CANCELLED, -7, "cancelled by the caller")                                     \
+    X(BAYESOPT_STOP_BUDGET, 1, "the budget of evaluations is spent")                               \
+    X(BAYESOPT_STOP_NO_IMPROVEMENT, 2, "no improvement for long")                                  \
+    X(BAYESOPT_STOP_EXPECTED_IMPROVEMENT, 3, "the expected improvement is small")                  \
+    X(BAYESOPT_NONE_FEASIBLE, 4, "no evaluation satisfies the outcome constraints")
 
 typedef enum bayesopt_status {
 #define BAYESOPT_STATUS_ENUM(name, value, text) name = value,

@@ -1,0 +1,309 @@
+/**
+ * @file bayesopt.h
+ * Bayesian optimisation of expensive functions, driven by the caller: ask for points, evaluate
+ * them, tell the results.
+ *
+ *     bayesopt *bo;
+ *     bayesopt_create(d, lower, upper, NULL, &bo);
+ *     bayesopt_open_store(bo, "run.db");            (optional: durable and resumable)
+ *     while (bayesopt_ask(bo, 1, x, &id) == BAYESOPT_OK) {
+ *         if (simulate(x, &f)) bayesopt_tell(bo, id, f, NULL);
+ *         else                 bayesopt_tell_failed(bo, id, "grid folded at the bulb");
+ *     }
+ *     bayesopt_best(bo, x, &f, NULL);
+ *
+ * The objective is minimised. All points are in the caller's units; scaling to [0,1]^d is internal.
+ * What is proposed depends on the options, the seed and the history alone, so an interrupted run
+ * that is resumed from its store continues with the points it would have proposed uninterrupted.
+ *
+ * One object is used by one thread at a time. Several objects, in one process or many, may share
+ * one store. Words on ownership: creates (the caller frees with the named function), borrows,
+ * copies, fills (the caller's buffer).
+ */
+#ifndef BAYESOPT_BAYESOPT_H
+#define BAYESOPT_BAYESOPT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include <bayesopt/acquisition.h>
+#include <bayesopt/design.h>
+#include <bayesopt/gp.h>
+#include <bayesopt/status.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** An optimisation: bounds, options, history, model. */
+typedef struct bayesopt bayesopt;
+
+/** Where a point came from. */
+typedef enum bayesopt_phase {
+    BAYESOPT_PHASE_INITIAL,  /**< the initial design */
+    BAYESOPT_PHASE_GLOBAL,   /**< maximiser of the acquisition over the whole box */
+    BAYESOPT_PHASE_LOCAL,    /**< maximiser of the acquisition over the trust region */
+    BAYESOPT_PHASE_POLISH,   /**< minimiser of a local quadratic model around the best point */
+    BAYESOPT_PHASE_EXTERNAL, /**< told by the caller without having been asked */
+} bayesopt_phase;
+
+/** What became of a point. */
+typedef enum bayesopt_state {
+    BAYESOPT_STATE_PENDING, /**< asked, not told */
+    BAYESOPT_STATE_DONE,    /**< told with a finite value */
+    BAYESOPT_STATE_FAILED,  /**< told as failed, or with a value that is not finite */
+} bayesopt_state;
+
+/** Which proposals follow the initial design. */
+typedef enum bayesopt_strategy {
+    BAYESOPT_STRATEGY_AUTO, /**< global, trust-region and polishing steps as the history suggests */
+    BAYESOPT_STRATEGY_GLOBAL, /**< global steps only (classical efficient global optimisation) */
+    BAYESOPT_STRATEGY_LOCAL,  /**< trust-region steps only, with restarts */
+} bayesopt_strategy;
+
+/** Name of a phase ("global"), state ("done") or strategy ("auto"); "unknown" outside the list. */
+BAYESOPT_API const char *bayesopt_phase_name(bayesopt_phase phase);
+BAYESOPT_API const char *bayesopt_state_name(bayesopt_state state);
+BAYESOPT_API const char *bayesopt_strategy_name(bayesopt_strategy strategy);
+
+/** Options of bayesopt_create(); fill with bayesopt_options_init() first. Arrays are borrowed until
+ * bayesopt_create() returns, which copies them; input_data is borrowed for the object's life. */
+typedef struct bayesopt_options {
+    uint64_t seed;          /**< of every random stream; default 1 */
+    size_t max_evaluations; /**< budget: initial, failed and told points included; default 0 = twice
+                                 the initial design plus 10. bayesopt_ask() then stops */
+
+    bayesopt_design_kind initial_kind; /**< default BAYESOPT_DESIGN_ANNEALED_LHS */
+    size_t initial_n;        /**< points of the initial design; default 0 = min(10 d, 200) */
+    const double *initial_x; /**< own initial design, initial_n x d, instead; default NULL */
+
+    size_t n_constraints;           /**< outcome constraints told with each value; default 0 */
+    const double *constraint_lower; /**< [n_constraints], -INFINITY allowed; NULL = all -INFINITY */
+    const double *constraint_upper; /**< [n_constraints], +INFINITY allowed; NULL = all 0. A narrow
+                                         band lower < c < upper expresses an equality */
+
+    size_t n_input_constraints;                 /**< values of input_constraint; default 0 */
+    bayesopt_input_constraint input_constraint; /**< known before evaluation; see design.h */
+    void *input_data;                           /**< passed to input_constraint */
+    size_t n_linear;                            /**< rows of linear_a x <= linear_b; default 0 */
+    const double *linear_a;                     /**< [n_linear x d], row by row */
+    const double *linear_b;                     /**< [n_linear] */
+
+    bayesopt_noise noise;   /**< default BAYESOPT_NOISE_DETERMINISTIC */
+    bayesopt_kernel kernel; /**< default BAYESOPT_KERNEL_MATERN52 */
+    bayesopt_scales scales; /**< default BAYESOPT_SCALES_AUTO: isotropic or ARD, the likelier */
+    bayesopt_transform transform; /**< of the objective; default BAYESOPT_TRANSFORM_AUTO */
+    bayesopt_strategy strategy;   /**< default BAYESOPT_STRATEGY_AUTO */
+    bool polish; /**< allow polishing steps with BAYESOPT_STRATEGY_AUTO; default true */
+
+    size_t n_levels;         /**< 1, or 2: a cheap level 0 beside the dear level 1; default 1 */
+    double level_cost_ratio; /**< cost of the cheap level over that of the dear one; default 0.1 */
+
+    size_t stop_no_improvement; /**< stop after so many proposals in a row without improvement;
+                                     default 0 = never */
+    double stop_expected_improvement; /**< stop when the largest expected improvement over the box
+                                         is below this many units of f; default 0 = never */
+} bayesopt_options;
+
+/** Fills the defaults. */
+BAYESOPT_API void bayesopt_options_init(bayesopt_options *options);
+
+/**
+ * Creates an optimisation over the box lower <= x <= upper; release with bayesopt_free().
+ * @param d        number of variables, 1 to 1000
+ * @param lower    [d] copied, finite
+ * @param upper    [d] copied, finite, greater than lower
+ * @param options  NULL: the defaults
+ * @return BAYESOPT_ERROR_ARGUMENT with the field at fault, BAYESOPT_ERROR_MEMORY
+ */
+BAYESOPT_API bayesopt_status bayesopt_create(size_t d, const double *lower, const double *upper,
+                                             const bayesopt_options *options, bayesopt **bo);
+
+/** Releases the object and closes its store. Points asked and not told are offered again by the
+ * next session on the store, unless bayesopt_detach() was called. NULL is allowed. */
+BAYESOPT_API void bayesopt_free(bayesopt *bo);
+
+/**
+ * Keeps the history in the SQLite file @p path: creates it, or resumes from it. Call it before the
+ * first ask or tell. From then on every ask and tell is on disk before it returns, whatever happens
+ * to the process afterwards; points asked by a session that died are asked again, under their old
+ * ids.
+ *
+ * All tables are called bayesopt_*. After this call the caller may add tables of its own to the
+ * same file through its own connection (set a busy timeout: an ask holds the write lock while it
+ * computes); they are left alone.
+ *
+ * @return BAYESOPT_ERROR_FILE, BAYESOPT_ERROR_FORMAT for a damaged file or a database that is not
+ *         such a store, BAYESOPT_ERROR_ARGUMENT if its problem (d, bounds, seed, initial design,
+ *         constraints) is not this one's
+ */
+BAYESOPT_API bayesopt_status bayesopt_open_store(bayesopt *bo, const char *path);
+
+/**
+ * Creates an optimisation from an existing store alone.
+ * @param input_constraint  the callback the store was created with, if any; NULL then still allows
+ *                          everything except new proposals
+ */
+BAYESOPT_API bayesopt_status bayesopt_open(const char *path,
+                                           bayesopt_input_constraint input_constraint,
+                                           void *input_data, bayesopt **bo);
+
+/** Leaves the points asked in this session pending after bayesopt_free(): they will be told later,
+ * perhaps by another process. Without a store there is nothing to leave and nothing happens. */
+BAYESOPT_API bayesopt_status bayesopt_detach(bayesopt *bo);
+
+/** Makes every pending point whose session is over, detached or not, to be asked again. */
+BAYESOPT_API bayesopt_status bayesopt_reclaim(bayesopt *bo);
+
+/**
+ * The next points to evaluate: first those left over by a dead session, then new ones.
+ * @param n    how many
+ * @param x    [n x d] filled, within the bounds and the input constraints
+ * @param ids  [n] filled; greater than 0. If fewer than n points remain of the budget the rest of
+ * ids is 0 and the rest of x untouched
+ * @return BAYESOPT_OK with at least one point; BAYESOPT_STOP_BUDGET, BAYESOPT_STOP_NO_IMPROVEMENT
+ * or BAYESOPT_STOP_EXPECTED_IMPROVEMENT (all positive) with none; BAYESOPT_ERROR_INFEASIBLE if no
+ * point satisfies the input constraints
+ */
+BAYESOPT_API bayesopt_status bayesopt_ask(bayesopt *bo, size_t n, double *x, uint64_t *ids);
+
+/** bayesopt_ask() for two levels of fidelity: levels [n] filled with 0 (cheap) or 1 (dear). With
+ * one level every entry is 0. */
+BAYESOPT_API bayesopt_status bayesopt_ask_levels(bayesopt *bo, size_t n, double *x, uint64_t *ids,
+                                                 int *levels);
+
+/** All that may be known about one evaluation. */
+typedef struct bayesopt_result {
+    double f;                  /**< the objective; not finite = failed */
+    const double *constraints; /**< [n_constraints] borrowed; NULL if there are none */
+    const double *gradient;    /**< [d] df/dx borrowed; NULL if not known */
+    double variance;           /**< of f, with BAYESOPT_NOISE_KNOWN; else 0 */
+    const char *note;          /**< copied into the history; NULL for none */
+} bayesopt_result;
+
+/**
+ * The value at an asked point.
+ * @param f            objective; a value that is not finite counts as a failed evaluation
+ * @param constraints  [n_constraints] outcome constraints, NULL if there are none; a value that is
+ * not finite makes the evaluation failed
+ * @return BAYESOPT_ERROR_ARGUMENT if the id is unknown or was told before
+ */
+BAYESOPT_API bayesopt_status bayesopt_tell(bayesopt *bo, uint64_t id, double f,
+                                           const double *constraints);
+
+/** bayesopt_tell() with everything that is known. */
+BAYESOPT_API bayesopt_status bayesopt_tell_result(bayesopt *bo, uint64_t id,
+                                                  const bayesopt_result *result);
+
+/** The evaluation at an asked point failed; @p reason is copied, NULL allowed. The neighbourhood is
+ * learnt to be risky; the value of the objective there stays unknown. */
+BAYESOPT_API bayesopt_status bayesopt_tell_failed(bayesopt *bo, uint64_t id, const char *reason);
+
+/**
+ * An evaluation made elsewhere (a parent design, an earlier study). It counts against the budget
+ * and joins the data; the point may lie outside the input constraints but not outside the bounds.
+ * @param x            [d] copied
+ * @param f            as in bayesopt_tell()
+ * @param constraints  as in bayesopt_tell()
+ */
+BAYESOPT_API bayesopt_status bayesopt_tell_point(bayesopt *bo, const double *x, double f,
+                                                 const double *constraints);
+
+/**
+ * The best evaluation so far: least f among those that satisfy the outcome constraints.
+ * @param x   [d] filled; NULL allowed
+ * @param f   filled; NULL allowed
+ * @param id  filled; NULL allowed
+ * @return BAYESOPT_OK; BAYESOPT_NONE_FEASIBLE (positive) with the point of least constraint
+ *         violation; BAYESOPT_ERROR_ARGUMENT if nothing has been evaluated successfully
+ */
+BAYESOPT_API bayesopt_status bayesopt_best(const bayesopt *bo, double *x, double *f, uint64_t *id);
+
+/** One row of the history. Pointers are borrowed until the next call that changes the object. */
+typedef struct bayesopt_point {
+    uint64_t id;               /**< 1, 2, ... in the order of asking */
+    bayesopt_phase phase;      /**< where it came from */
+    bayesopt_state state;      /**< what became of it */
+    int level;                 /**< fidelity level */
+    const double *x;           /**< [d] */
+    double f;                  /**< NAN unless done */
+    const double *constraints; /**< [n_constraints], NULL unless done or if there are none */
+    const double *gradient;    /**< [d] or NULL */
+    double variance;           /**< of f */
+    const char *note;          /**< reason of the failure, or the caller's note; "" if none */
+    bool feasible;             /**< done, and within the outcome constraints */
+} bayesopt_point;
+
+/** Number of points in the history, pending ones included. */
+BAYESOPT_API size_t bayesopt_count(const bayesopt *bo);
+
+/** Fills row i, 0 <= i < bayesopt_count(), in the order of asking. */
+BAYESOPT_API bayesopt_status bayesopt_get(const bayesopt *bo, size_t i, bayesopt_point *point);
+
+/** Reads what other processes have added to the store since; ask and tell do so themselves. */
+BAYESOPT_API bayesopt_status bayesopt_refresh(bayesopt *bo);
+
+/** Number of variables; fills the bounds ([d] each, NULL allowed). */
+BAYESOPT_API size_t bayesopt_dimension(const bayesopt *bo, double *lower, double *upper);
+
+/** Number of outcome constraints; fills their bounds ([n] each, NULL allowed). */
+BAYESOPT_API size_t bayesopt_constraint_count(const bayesopt *bo, double *lower, double *upper);
+
+/** Budget, size of the initial design, and seed. */
+BAYESOPT_API size_t bayesopt_budget(const bayesopt *bo);
+BAYESOPT_API size_t bayesopt_initial_count(const bayesopt *bo);
+BAYESOPT_API uint64_t bayesopt_seed(const bayesopt *bo);
+
+/** Replaces the budget (0 = the default); a finished run may go on. */
+BAYESOPT_API bayesopt_status bayesopt_set_budget(bayesopt *bo, size_t max_evaluations);
+
+/**
+ * The model's opinion of the objective, fitted to the present history.
+ * @param x     [n x d]
+ * @param mean  [n] filled: posterior median in units of f
+ * @param sd    [n] filled: half the central 68 % interval in units of f; NULL allowed
+ * @return BAYESOPT_ERROR_ARGUMENT with fewer than two successful evaluations
+ */
+BAYESOPT_API bayesopt_status bayesopt_predict(bayesopt *bo, size_t n, const double *x, double *mean,
+                                              double *sd);
+
+/** What the current model is, for reports. */
+typedef struct bayesopt_model_info {
+    size_t n;                     /**< evaluations it is fitted to */
+    bool isotropic;               /**< one length scale for all variables */
+    bool wide;                    /**< the wide prior won over the tight one */
+    bayesopt_transform transform; /**< of the objective */
+    double log_posterior;         /**< of the hyper-parameters */
+    double jitter;          /**< what the factorisation needed, relative to the signal variance */
+    double signal_variance; /**< in squared units of the standardised objective */
+    double noise_variance;  /**< likewise */
+    double loo_rms;         /**< leave-one-out error over the standard deviation of the data */
+    double trust_length;    /**< side of the trust region in [0,1] units */
+} bayesopt_model_info;
+
+/** Fits the model to the present history and describes it.
+ * @param lengthscale  [d] filled, in the caller's units of x; NULL allowed */
+BAYESOPT_API bayesopt_status bayesopt_model(bayesopt *bo, bayesopt_model_info *info,
+                                            double *lengthscale);
+
+/** The objective for bayesopt_minimise(): fills *f and constraints [n_constraints] and returns 0,
+ * or returns another number if it could not be evaluated. */
+typedef int (*bayesopt_objective)(void *data, size_t d, const double *x, double *f,
+                                  double *constraints);
+
+/** Called after every evaluation with the history so far; a non-zero return cancels. */
+typedef int (*bayesopt_progress)(void *data, const bayesopt *bo);
+
+/**
+ * The loop of ask and tell until the options say stop.
+ * @return the positive reason for stopping, BAYESOPT_ERROR_CANCELLED, or another error
+ */
+BAYESOPT_API bayesopt_status bayesopt_minimise(bayesopt *bo, bayesopt_objective objective,
+                                               void *data, bayesopt_progress progress,
+                                               void *progress_data);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
