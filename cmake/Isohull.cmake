@@ -82,6 +82,15 @@ function(isohull_tool name)
   target_link_libraries(${name}_tool PRIVATE tool_common ${ARG_LIBRARIES} isohull_flags
                                              ${MATH_LIBRARY})
   install(TARGETS ${name}_tool RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  add_custom_command(
+    OUTPUT ${name}.1
+    COMMAND ${CMAKE_COMMAND} -DCOMMAND=$<TARGET_FILE:${name}_tool> -DNAME=${name}
+            -DVERSION=${PROJECT_VERSION} -DOUTPUT=${name}.1 -P
+            ${PROJECT_SOURCE_DIR}/cmake/manpage.cmake
+    DEPENDS ${name}_tool ${PROJECT_SOURCE_DIR}/cmake/manpage.cmake
+    VERBATIM)
+  add_custom_target(${name}_manpage ALL DEPENDS ${name}.1)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 endfunction()
 
 # isohull_test(NAME SOURCES files... LIBRARIES targets... [LABELS labels...] [TIMEOUT seconds]): one
