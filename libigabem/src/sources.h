@@ -1,0 +1,31 @@
+/* A solved density as point sources: the nodes of a quadrature rule fine enough for the amplitudes
+ * of waves up to a given angle. Shallow elements are divided until one piece sees at most a few
+ * radians of phase and a few units of decay at every angle that still counts at its depth. */
+#ifndef SOURCES_H
+#define SOURCES_H
+
+#include <igabem/solve.h>
+
+struct sources {
+    int symmetric; /* every source has a mirror image in y that is not listed */
+    size_t n;      /* surface sources, ordered by increasing depth */
+    double *x, *y, *z;
+    double *strength;         /* sigma times area, m^3/s */
+    double *area;             /* weight times area element, m^2: sum is the wetted area */
+    double *normal[3];        /* outward unit normal */
+    double *velocity[3];      /* grad phi there, m/s; NULL if the formulation has none */
+    size_t n_line;            /* waterline sources, z = 0 */
+    double *line_x, *line_y;  /* m */
+    double *line_strength;    /* -(1/k0) chi sigma n_x nu_x times length, m^3/s */
+    double *line_length;      /* weight times length, m */
+    double *line_nu_x;        /* x component of the horizontal normal of the waterline */
+    double *line_velocity[3]; /* grad phi on the waterline, m/s, or NULL */
+};
+
+/* Wave angles up to t_max at wave number k0 (k0 = 0: no waves, plain rule). sigma: coefficients of
+ * the density, NULL for those of the solution. */
+igabem_status sources_create(const igabem_solution *solution, double k0, double t_max,
+                             const double *sigma, struct sources **sources);
+void sources_free(struct sources *sources);
+
+#endif
