@@ -30,10 +30,15 @@ NURBS_API const double *nurbs_curve_knots(const nurbs_curve *curve);
 NURBS_API const double *nurbs_curve_points(const nurbs_curve *curve);
 NURBS_API const double *nurbs_curve_weights(const nurbs_curve *curve);
 
-/** Points and derivatives at n parameters: fills out[n][order + 1][3]. u outside the domain is an
- * error. At an interior knot the right-hand limit, at the end of the domain the left-hand one. */
+/** Points and derivatives at n parameters: fills out[n][order + 1][3], order 0 to 50. u outside the
+ * domain is an error. At an interior knot the right-hand limit, at the end of the domain the
+ * left-hand one. */
 NURBS_API nurbs_status nurbs_curve_eval(const nurbs_curve *curve, int order, size_t n,
                                         const double *u, double *out);
+
+/** The same with the left-hand limit at interior knots. */
+NURBS_API nurbs_status nurbs_curve_eval_left(const nurbs_curve *curve, int order, size_t n,
+                                             const double *u, double *out);
 
 #ifdef __cplusplus
 }

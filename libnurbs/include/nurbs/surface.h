@@ -43,9 +43,15 @@ NURBS_API const double *nurbs_surface_weights(const nurbs_surface *surface);
  * @param order  0, 1 or 2
  * @param uv     n pairs u,v inside the domain (else an error naming the index)
  * @param out    fills out[n][NURBS_SURFACE_TRIPLES(order)][3]
- * At interior knots the right-hand limit, at the ends of the domain the left-hand one. */
+ * At interior knots the right-hand limit, at the end of the domain the left-hand one. */
 NURBS_API nurbs_status nurbs_surface_eval(const nurbs_surface *surface, int order, size_t n,
                                           const double *uv, double *out);
+
+/** The same with a choice of limit at interior knots: left & 1 takes the left-hand limit in u, left
+ * & 2 in v. */
+NURBS_API nurbs_status nurbs_surface_eval_sided(const nurbs_surface *surface, int order,
+                                                unsigned left, size_t n, const double *uv,
+                                                double *out);
 
 /** The same on the tensor grid u[nu] x v[nv]: fills out[nu][nv][triples][3]. Basis functions are
  * evaluated once per axis, so this is several times faster than scattered points. u and v must each
