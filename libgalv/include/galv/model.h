@@ -107,20 +107,40 @@ GALV_API double galv_model_retained(const galv_model *model); /**< eq. 9 for the
 GALV_API double galv_model_trace(const galv_model *model);    /**< exact trace of C, m^2 */
 /** The leading eigenvalues, descending, m^2; galv_model_spectrum() of them. */
 GALV_API const double *galv_model_eigenvalues(const galv_model *model);
+/** |C w - lambda w| of each: some eigenvalue lies that close to the one reported, and the one
+ * reported is not above the true one of its index. At rounding for the exact methods. */
+GALV_API const double *galv_model_residuals(const galv_model *model);
 /** MSE of eq. 10 with 1, 2, ... galv_model_spectrum() modes, m^2: trace minus the eigenvalues kept.
  */
 GALV_API const double *galv_model_mse(const galv_model *model);
-/** The modes W1: L rows of m numbers (row by row), columns orthonormal in the weighted inner
- * product. The sign makes the component of largest magnitude positive. */
+/** The modes W1, one after another: mode k is the L numbers from vectors + k L, displacements in
+ * the order of the points. Orthonormal in the weighted inner product; the component of largest
+ * magnitude is positive. */
 GALV_API const double *galv_model_vectors(const galv_model *model);
 /** Mean displacement (L), zeros when not centred. */
 GALV_API const double *galv_model_mean(const galv_model *model);
 /** The points of the parent, npoints triples. */
 GALV_API const double *galv_model_parent(const galv_model *model);
+/** Weights of the coordinates (L), or NULL when all are 1. */
+GALV_API const double *galv_model_weights(const galv_model *model);
+/** The projected samples u_r: N rows of m numbers. */
+GALV_API const double *galv_model_latent(const galv_model *model);
+/** The method that found the spectrum (never GALV_METHOD_AUTO). */
+GALV_API galv_method galv_model_method(const galv_model *model);
 /** Box of the projected samples (m each): least and greatest u_k over the samples. */
 GALV_API const double *galv_model_lower(const galv_model *model);
 GALV_API const double *galv_model_upper(const galv_model *model);
 /** @} */
+
+/** Whether N was enough. Both figures are NaN for N < 20. */
+typedef struct galv_confidence {
+    double retained_error; /**< standard error of the retained share (jackknife over ten groups) */
+    double angle; /**< greatest principal angle, radians, between the modes of every other sample
+                     and those of all: for independent samples also the size of the angle between
+                     the modes found and those of infinitely many samples */
+} galv_confidence;
+
+GALV_API galv_confidence galv_model_confidence(const galv_model *model);
 
 /** Latent coordinates of a displacement, u = W1^T (d - mean): d has L numbers, u m, filled. */
 GALV_API galv_status galv_project(const galv_model *model, const double *d, double *u);

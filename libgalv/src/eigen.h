@@ -1,0 +1,45 @@
+/* Leading eigenpairs of symmetric positive semi-definite matrices. Column-major, values descending.
+ */
+#ifndef GALV_EIGEN_H
+#define GALV_EIGEN_H
+
+#include <galv/status.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* All of n eigenvalues and the leading nev eigenvectors (n x nev) of the lower triangle of a, which
+ * is destroyed. */
+galv_status galv_eigen_dense(size_t n, double *a, size_t nev, double *values, double *vectors);
+
+/* y = A v for a block of b vectors (n x b). */
+typedef struct galv_operator {
+    size_t n;
+    galv_status (*apply)(void *context, size_t b, const double *v, double *y);
+    void *context;
+} galv_operator;
+
+typedef struct galv_krylov {
+    size_t nev;       /* eigenpairs wanted */
+    size_t block;     /* vectors per application */
+    size_t basis;     /* most basis vectors kept, >= nev + 2 block */
+    size_t most;      /* most applications */
+    double tolerance; /* residual norm wanted, relative to the largest eigenvalue */
+    double variance; /* stop early once the pairs that reach this share of `trace` are converged; 0:
+                        never */
+    double trace;
+    uint64_t seed;
+    /* Results. */
+    size_t found;        /* pairs returned, fewer than nev when the rank is */
+    size_t converged;    /* of them, leading pairs within the tolerance */
+    size_t applications; /* of the operator */
+} galv_krylov;
+
+/* Block Lanczos with full orthogonalisation, a random start and thick restarts (Golub and Underwood
+ * 1977; Wu and Simon, SIAM J. Matrix Anal. Appl. 22, 2000). values: nev; vectors: n x nev;
+ * residuals: nev norms |A w - value w|. Each interval value +- residual holds an eigenvalue, and no
+ * value exceeds the eigenvalue of its index. start: n x block vectors to begin with, or NULL for
+ * random ones. */
+galv_status galv_eigen_krylov(const galv_operator *a, galv_krylov *run, const double *start,
+                              double *values, double *vectors, double *residuals);
+
+#endif

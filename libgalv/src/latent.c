@@ -1,0 +1,265 @@
+#include "latent.h"
+
+#include "eigen.h"
+#include "error.h"
+
+#include <cblas.h>
+#include <lapacke.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Samples are dealt to the groups in turn, so that a sorted list of samples is no worse than a
+ * shuffled one. */
+enum { GROUPS = 10 };
+
+typedef struct latent_pass {
+    const galv_spectrum *spectrum;
+    size_t pairs;
+    double *offset; /* pairs: projection of the mean, subtracted when centring */
+    double *v;      /* pairs x block: projections on the leading eigenvectors */
+    double *sorted; /* pairs x block: the same, group after group */
+    double *moment; /* GROUPS matrices pairs x pairs, lower triangles of sums of v v^T */
+    double energy[GROUPS];
+    size_t count[GROUPS];
+    double mean_square; /* |mean|^2 */
+    double *x;          /* parameters of a sample */
+    double *sum_x, *sum_u, *sum_xu, *sum_uu;
+} latent_pass;
+
+static void latent_free(latent_pass *pass)
+{
+    free(pass->offset);
+    free(pass->v);
+    free(pass->sorted);
+    free(pass->moment);
+    free(pass->x);
+    free(pass->sum_x);
+    free(pass->sum_u);
+    free(pass->sum_xu);
+    free(pass->sum_uu);
+}
+
+static galv_status latent_start(latent_pass *pass, const galv_stream *stream,
+                                const galv_spectrum *spectrum, size_t pairs,
+                                const galv_model *model)
+{
+    size_t n = model->parameters, m = model->modes;
+    *pass = (latent_pass){.spectrum = spectrum, .pairs = pairs};
+    pass->offset = calloc(pairs, sizeof(double));
+    pass->v = malloc(pairs * stream->block * sizeof(double));
+    pass->sorted = malloc(pairs * stream->block * sizeof(double));
+    pass->moment = calloc(GROUPS * pairs * pairs, sizeof(double));
+    pass->x = calloc(n + 1, sizeof(double));
+    pass->sum_x = calloc(n + 1, sizeof(double));
+    pass->sum_u = calloc(m, sizeof(double));
+    pass->sum_xu = calloc(n * m + 1, sizeof(double));
+    pass->sum_uu = calloc(m * m, sizeof(double));
+    if (!pass->offset || !pass->v || !pass->sorted || !pass->moment || !pass->x || !pass->sum_x ||
+        !pass->sum_u || !pass->sum_xu || !pass->sum_uu) {
+        latent_free(pass);
+        return galv_fail(GALV_ERROR_MEMORY, "projection of a block on %zu eigenvectors", pairs);
+    }
+    if (model->centred) {
+        blasint active = (blasint)spectrum->active;
+        cblas_dgemv(CblasColMajor, CblasTrans, active, (blasint)pairs, 1, spectrum->vectors, active,
+                    spectrum->mean, 1, 0, pass->offset, 1);
+        pass->mean_square = cblas_ddot(active, spectrum->mean, 1, spectrum->mean, 1);
+    }
+    return GALV_OK;
+}
+
+/* Sums of v v^T and of squared norms, group by group. */
+static void add_moments(latent_pass *pass, const galv_stream *stream, const galv_model *model,
+                        size_t first, size_t count)
+{
+    size_t pairs = pass->pairs, active = pass->spectrum->active;
+    for (size_t g = 0; g < GROUPS; g++) {
+        size_t members = 0;
+        for (size_t r = (g + GROUPS - first % GROUPS) % GROUPS; r < count; r += GROUPS) {
+            memcpy(pass->sorted + members++ * pairs, pass->v + r * pairs,
+                   pairs * sizeof *pass->sorted);
+            pass->energy[g] += stream->energy[r];
+            if (model->centred)
+                pass->energy[g] +=
+                    pass->mean_square - 2 * cblas_ddot((blasint)active, pass->spectrum->mean, 1,
+                                                       stream->rows + r * active, 1);
+        }
+        pass->count[g] += members;
+        if (members)
+            cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, (blasint)pairs, (blasint)members,
+                        1, pass->sorted, (blasint)pairs, 1, pass->moment + g * pairs * pairs,
+                        (blasint)pairs);
+    }
+}
+
+static void add_sample(latent_pass *pass, galv_model *model, const galv_shape_source *parameters,
+                       size_t r, const double *u)
+{
+    size_t n = model->parameters, m = model->modes;
+    memcpy(model->latent + r * m, u, m * sizeof *u);
+    for (size_t k = 0; k < m; k++) {
+        if (r == 0 || u[k] < model->lower[k])
+            model->lower[k] = u[k];
+        if (r == 0 || u[k] > model->upper[k])
+            model->upper[k] = u[k];
+    }
+    if (!parameters)
+        return;
+    galv_shape_source_parameters(parameters, r, pass->x);
+    cblas_daxpy((blasint)n, 1, pass->x, 1, pass->sum_x, 1);
+    cblas_daxpy((blasint)m, 1, u, 1, pass->sum_u, 1);
+    cblas_dger(CblasColMajor, (blasint)n, (blasint)m, 1, pass->x, 1, u, 1, pass->sum_xu,
+               (blasint)n);
+    cblas_dsyr(CblasColMajor, CblasLower, (blasint)m, 1, u, 1, pass->sum_uu, (blasint)m);
+}
+
+static galv_status project_samples(latent_pass *pass, galv_stream *stream,
+                                   const galv_shape_source *parameters, galv_model *model)
+{
+    size_t samples = model->samples, pairs = pass->pairs, active = pass->spectrum->active;
+    for (size_t first = 0; first < samples; first += stream->block) {
+        size_t rest = samples - first, count = rest < stream->block ? rest : stream->block;
+        galv_status status = galv_stream_read(stream, first, count);
+        if (!status && stream->active != active)
+            status =
+                galv_fail(GALV_ERROR_ARGUMENT,
+                          "samples %zu...: other coordinates move than in the first pass", first);
+        if (status)
+            return status;
+        cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, (blasint)pairs, (blasint)count,
+                    (blasint)active, 1, pass->spectrum->vectors, (blasint)active, stream->rows,
+                    (blasint)active, 0, pass->v, (blasint)pairs);
+        for (size_t r = 0; r < count; r++) {
+            double *v = pass->v + r * pairs;
+            for (size_t k = 0; k < pairs; k++)
+                v[k] -= pass->offset[k];
+            add_sample(pass, model, parameters, first + r, v);
+        }
+        add_moments(pass, stream, model, first, count);
+        status = galv_stream_report(stream, first + count);
+        if (status)
+            return status;
+    }
+    return GALV_OK;
+}
+
+/* x ~ mean x + Cov(x, u) Cov(u, u)^-1 (u - mean u): the embedded linear map from latent points to
+ * parameters that starts the search of galv_backmap(). */
+static galv_status regress(latent_pass *pass, galv_model *model)
+{
+    size_t n = model->parameters, m = model->modes;
+    double samples = (double)model->samples, *cuu = pass->sum_uu, *cxu = pass->sum_xu, trace = 0;
+    for (size_t k = 0; k < m; k++)
+        for (size_t l = k; l < m; l++)
+            cuu[k * m + l] =
+                cuu[k * m + l] / samples - pass->sum_u[k] / samples * (pass->sum_u[l] / samples);
+    for (size_t k = 0; k < m; k++)
+        trace += cuu[k * m + k];
+    /* A latent coordinate that does not vary gets the coefficient 0 instead of a division by 0. */
+    for (size_t k = 0; k < m; k++)
+        cuu[k * m + k] += 1e-12 * trace + 1e-300;
+    for (size_t k = 0; k < m; k++)
+        for (size_t i = 0; i < n; i++)
+            cxu[k * n + i] =
+                cxu[k * n + i] / samples - pass->sum_x[i] / samples * (pass->sum_u[k] / samples);
+    lapack_int info = LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'L', (lapack_int)m, cuu, (lapack_int)m);
+    if (info)
+        return galv_fail(GALV_ERROR_NUMERIC,
+                         "covariance of the latent coordinates gave %d in dpotrf", (int)info);
+    /* B = Cxu Cuu^-1 by two triangular solves from the right. */
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, (blasint)n,
+                (blasint)m, 1, cuu, (blasint)m, cxu, (blasint)n);
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasNoTrans, CblasNonUnit, (blasint)n,
+                (blasint)m, 1, cuu, (blasint)m, cxu, (blasint)n);
+    for (size_t i = 0; i < n; i++) {
+        double *row = model->regression + i * (1 + m);
+        row[0] = pass->sum_x[i] / samples;
+        for (size_t k = 0; k < m; k++) {
+            row[1 + k] = cxu[k * n + i];
+            row[0] -= row[1 + k] * pass->sum_u[k] / samples;
+        }
+    }
+    return GALV_OK;
+}
+
+/* Leading eigenvalues and eigenvectors of the sum of the groups in `mask`. */
+static galv_status group_eigen(const latent_pass *pass, unsigned mask, double *matrix,
+                               double *values, double *vectors, double *energy)
+{
+    size_t size = pass->pairs * pass->pairs;
+    memset(matrix, 0, size * sizeof *matrix);
+    *energy = 0;
+    for (size_t g = 0; g < GROUPS; g++)
+        if (mask >> g & 1) {
+            cblas_daxpy((blasint)size, 1, pass->moment + g * size, 1, matrix, 1);
+            *energy += pass->energy[g];
+        }
+    return galv_eigen_dense(pass->pairs, matrix, pass->pairs, values, vectors);
+}
+
+/* Sine of the greatest angle between the first m columns of the orthogonal matrix y and the first m
+ * unit vectors: the norm of the block below. */
+static double greatest_angle(size_t pairs, size_t m, const double *y, double *work)
+{
+    size_t below = pairs - m;
+    double *block = work, *values = work + below * m;
+    if (below == 0)
+        return 0;
+    for (size_t c = 0; c < m; c++)
+        memcpy(block + c * below, y + c * pairs + m, below * sizeof *block);
+    lapack_int info = LAPACKE_dgesdd(LAPACK_COL_MAJOR, 'N', (lapack_int)below, (lapack_int)m, block,
+                                     (lapack_int)below, values, NULL, 1, NULL, 1);
+    return info ? NAN : asin(fmin(values[0], 1));
+}
+
+/* Standard error of the retained share by deleting one group at a time (each time with the best m
+ * modes of the rest), and the angle from the modes of every other sample to those of all. Both
+ * within the span of the pairs known. */
+static galv_status estimate_confidence(const latent_pass *pass, galv_model *model)
+{
+    size_t pairs = pass->pairs, m = model->modes;
+    galv_confidence *result = &model->confidence;
+    result->retained_error = result->angle = NAN;
+    if (model->samples < 2 * GROUPS)
+        return GALV_OK;
+    double *work = malloc((3 * pairs * pairs + 2 * pairs) * sizeof *work), energy;
+    if (!work)
+        return galv_fail(GALV_ERROR_MEMORY, "confidence of %zu pairs", pairs);
+    double *vectors = work + pairs * pairs, *values = work + 3 * pairs * pairs;
+    double share[GROUPS], mean = 0, square = 0;
+    galv_status status = GALV_OK;
+    unsigned all = (1u << GROUPS) - 1, even = 0x155;
+    for (unsigned g = 0; g < GROUPS && !status; g++) {
+        status = group_eigen(pass, all & ~(1u << g), work, values, vectors, &energy);
+        share[g] = 0;
+        for (size_t k = 0; k < m && !status; k++)
+            share[g] += values[k] / energy;
+        mean += share[g] / GROUPS;
+    }
+    for (unsigned g = 0; g < GROUPS; g++)
+        square += (share[g] - mean) * (share[g] - mean);
+    result->retained_error = sqrt(square * (GROUPS - 1) / GROUPS);
+    if (!status)
+        status = group_eigen(pass, even, work, values, vectors, &energy);
+    if (!status)
+        result->angle = greatest_angle(pairs, m, vectors, work + 2 * pairs * pairs);
+    free(work);
+    return status;
+}
+
+galv_status galv_latent_pass(galv_stream *stream, const galv_spectrum *spectrum, size_t pairs,
+                             const galv_shape_source *parameters, galv_model *model)
+{
+    latent_pass pass;
+    galv_status status = latent_start(&pass, stream, spectrum, pairs, model);
+    if (status)
+        return status;
+    status = project_samples(&pass, stream, parameters, model);
+    if (!status && parameters)
+        status = regress(&pass, model);
+    if (!status)
+        status = estimate_confidence(&pass, model);
+    latent_free(&pass);
+    return status;
+}

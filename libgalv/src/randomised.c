@@ -1,0 +1,185 @@
+/* Block Krylov iteration with one pass over the samples per application: for data whose covariance
+ * and Gram matrices are both too large. */
+#include "eigen.h"
+#include "error.h"
+#include "random.h"
+#include "spectrum.h"
+
+#include <cblas.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Vectors beyond those wanted speed up the convergence of the last ones (Halko, Martinsson and
+ * Tropp, SIAM Review 53, 2011). */
+enum { OVERSAMPLING = 8, MOST_PASSES = 24 };
+
+/* Residual, relative to the largest eigenvalue; the eigenvalue's own error is of the order of its
+ * square. */
+static const double stream_tolerance = 1e-7;
+
+typedef struct pass {
+    galv_stream *stream;
+    const galv_spectrum *spectrum;
+    bool centre;
+    double *t; /* block x most vectors */
+} pass;
+
+/* y += rows (rows^T v) / N over the block in the stream. */
+static void add_block(const pass *p, size_t count, size_t b, const double *v, double *y)
+{
+    const galv_stream *stream = p->stream;
+    blasint n = (blasint)p->spectrum->active;
+    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, (blasint)count, (blasint)b, n,
+                1 / (double)stream->source->samples, stream->rows, n, v, n, 0, p->t,
+                (blasint)count);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, (blasint)b, (blasint)count, 1,
+                stream->rows, n, p->t, (blasint)count, 1, y, n);
+}
+
+static galv_status covariance_apply(void *context, size_t b, const double *v, double *y)
+{
+    pass *p = context;
+    galv_stream *stream = p->stream;
+    size_t samples = stream->source->samples, n = p->spectrum->active;
+    memset(y, 0, n * b * sizeof *y);
+    for (size_t first = 0; first < samples; first += stream->block) {
+        size_t rest = samples - first, count = rest < stream->block ? rest : stream->block;
+        galv_status status = galv_stream_read(stream, first, count);
+        if (!status && stream->active != n)
+            status =
+                galv_fail(GALV_ERROR_ARGUMENT,
+                          "samples %zu...: other coordinates move than in the first pass", first);
+        if (!status)
+            add_block(p, count, b, v, y);
+        if (!status)
+            status = galv_stream_report(stream, first + count);
+        if (status)
+            return status;
+    }
+    for (size_t c = 0; p->centre && c < b; c++) {
+        const double *mean = p->spectrum->mean;
+        double dot = cblas_ddot((blasint)n, mean, 1, v + c * n, 1);
+        cblas_daxpy((blasint)n, -dot, mean, 1, y + c * n, 1);
+    }
+    return GALV_OK;
+}
+
+/* First pass: the sums, and D^T Omega with Omega Gaussian, N x b, as the start block. Rows are in
+ * the stream's order of discovery, so the ones not yet discovered are zero. */
+static galv_status sketch(galv_stream *stream, size_t b, uint64_t seed, double *start,
+                          galv_sums *sums)
+{
+    size_t samples = stream->source->samples, stored = stream->source->stored;
+    double *omega = malloc(stream->block * b * sizeof *omega);
+    galv_status status = omega ? GALV_OK : galv_fail(GALV_ERROR_MEMORY, "random start block");
+    memset(start, 0, stored * b * sizeof *start);
+    for (size_t first = 0; first < samples && !status; first += stream->block) {
+        size_t rest = samples - first, count = rest < stream->block ? rest : stream->block;
+        status = galv_stream_read(stream, first, count);
+        if (status)
+            break;
+        galv_sums_add(sums, stream, count);
+        for (size_t r = 0; r < count; r++) {
+            galv_random random;
+            galv_random_start(&random, seed, first + r);
+            for (size_t c = 0; c < b; c++)
+                omega[c * count + r] = galv_random_normal(&random);
+        }
+        if (stream->active)
+            cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, (blasint)stream->active,
+                        (blasint)b, (blasint)count, 1, stream->rows, (blasint)stream->active, omega,
+                        (blasint)count, 1, start, (blasint)stored);
+        status = galv_stream_report(stream, first + count);
+    }
+    free(omega);
+    return status;
+}
+
+/* From leading dimension `stored` to `active`. */
+static void compact(size_t stored, size_t active, size_t b, double *start)
+{
+    for (size_t c = 1; c < b; c++)
+        memmove(start + c * active, start + c * stored, active * sizeof *start);
+}
+
+static galv_status iterate(galv_stream *stream, const galv_goal *goal, size_t nev, size_t b,
+                           const double *start, galv_spectrum *spectrum)
+{
+    pass p = {.stream = stream, .spectrum = spectrum, .centre = goal->centre};
+    galv_operator op = {.n = spectrum->active, .apply = covariance_apply, .context = &p};
+    galv_krylov run = {.nev = nev,
+                       .block = b,
+                       .basis = nev + 4 * b,
+                       .most = MOST_PASSES,
+                       .tolerance = stream_tolerance,
+                       .variance = goal->modes ? 0 : goal->variance,
+                       .trace = spectrum->trace,
+                       .seed = goal->seed};
+    p.t = malloc(stream->block * b * sizeof *p.t);
+    spectrum->values = malloc(nev * sizeof *spectrum->values);
+    spectrum->residuals = malloc(nev * sizeof *spectrum->residuals);
+    spectrum->vectors = malloc(spectrum->active * nev * sizeof *spectrum->vectors);
+    galv_status status = GALV_OK;
+    if (!p.t || !spectrum->values || !spectrum->residuals || !spectrum->vectors)
+        status = galv_fail(GALV_ERROR_MEMORY, "%zu eigenvectors of %zu coordinates", nev,
+                           spectrum->active);
+    if (!status)
+        status = galv_eigen_krylov(&op, &run, start, spectrum->values, spectrum->vectors,
+                                   spectrum->residuals);
+    free(p.t);
+    if (status)
+        return status;
+    spectrum->passes += run.applications;
+    spectrum->known = run.found;
+    double floor = (double)spectrum->active * 0x1p-52 * spectrum->values[0];
+    while (spectrum->known && spectrum->values[spectrum->known - 1] <= floor)
+        spectrum->known--;
+    return GALV_OK;
+}
+
+static void free_pairs(galv_spectrum *spectrum)
+{
+    free(spectrum->values);
+    free(spectrum->vectors);
+    free(spectrum->residuals);
+    spectrum->values = spectrum->vectors = spectrum->residuals = NULL;
+}
+
+galv_status galv_spectrum_randomised(galv_stream *stream, const galv_goal *goal,
+                                     galv_spectrum *spectrum)
+{
+    size_t stored = stream->source->stored, samples = stream->source->samples;
+    size_t most = samples < stored ? samples : stored;
+    size_t nev = goal->modes > goal->spectrum ? goal->modes : goal->spectrum;
+    nev = nev < most ? nev : most;
+    size_t b = nev + OVERSAMPLING < most ? nev + OVERSAMPLING : most;
+    galv_sums sums;
+    double *start = malloc(stored * b * sizeof *start);
+    *spectrum = (galv_spectrum){.passes = 1};
+    galv_status status = galv_sums_start(&sums, stored);
+    if (!status && !start)
+        status = galv_fail(GALV_ERROR_MEMORY, "a block of %zu vectors", b);
+    if (!status)
+        status = sketch(stream, b, goal->seed, start, &sums);
+    if (!status)
+        status = galv_sums_finish(&sums, stream, goal->centre, spectrum);
+    if (!status) {
+        compact(stored, spectrum->active, b, start);
+        nev = nev < spectrum->active ? nev : spectrum->active;
+        b = b < spectrum->active ? b : spectrum->active;
+        status = iterate(stream, goal, nev, b, start, spectrum);
+    }
+    /* More pairs when these do not reach the variance and there may be more. */
+    while (!status && spectrum->known == nev && nev < spectrum->active && nev < samples &&
+           !galv_goal_modes(goal, nev, spectrum->values, spectrum->trace)) {
+        free_pairs(spectrum);
+        nev = 2 * nev < spectrum->active ? 2 * nev : spectrum->active;
+        b = nev + OVERSAMPLING < spectrum->active ? nev + OVERSAMPLING : spectrum->active;
+        status = iterate(stream, goal, nev, b, NULL, spectrum);
+    }
+    free(start);
+    free(sums.sum);
+    if (status)
+        galv_spectrum_free(spectrum);
+    return status;
+}

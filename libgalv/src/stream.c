@@ -1,0 +1,123 @@
+#include "error.h"
+#include "source.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+galv_status galv_stream_start(galv_stream *stream, galv_source *source, size_t block,
+                              const double *weights, bool shifted)
+{
+    size_t stored = source->stored;
+    *stream = (galv_stream){.source = source, .block = block, .progress_share = 1};
+    stream->place = malloc(stored * sizeof *stream->place);
+    stream->seen = calloc(stored, 1);
+    stream->raw = malloc(block * stored * sizeof *stream->raw);
+    stream->rows = malloc(block * stored * sizeof *stream->rows);
+    stream->energy = malloc(block * sizeof *stream->energy);
+    stream->scale = weights ? malloc(stored * sizeof *stream->scale) : NULL;
+    stream->shift = shifted ? calloc(stored, sizeof *stream->shift) : NULL;
+    if (!stream->place || !stream->seen || !stream->raw || !stream->rows || !stream->energy ||
+        (weights && !stream->scale) || (shifted && !stream->shift)) {
+        galv_stream_end(stream);
+        return galv_fail(GALV_ERROR_MEMORY, "a block of %zu samples of %zu coordinates", block,
+                         stored);
+    }
+    for (size_t s = 0; weights && s < stored; s++)
+        stream->scale[s] = sqrt(weights[source->index[s]]);
+    return GALV_OK;
+}
+
+void galv_stream_end(galv_stream *stream)
+{
+    free(stream->place);
+    free(stream->seen);
+    free(stream->scale);
+    free(stream->shift);
+    free(stream->raw);
+    free(stream->rows);
+    free(stream->energy);
+    *stream = (galv_stream){.source = NULL};
+}
+
+/* A coordinate that is zero in all rows so far contributes nothing to any inner product with them,
+ * so it can join when it first moves. */
+static void discover(galv_stream *stream, size_t count)
+{
+    size_t stored = stream->source->stored;
+    unsigned char *seen = stream->seen;
+    for (size_t r = 0; r < count; r++) {
+        const double *row = stream->raw + r * stored;
+        for (size_t s = 0; s < stored; s++)
+            seen[s] |= row[s] != 0;
+    }
+    /* Those already in `place` are marked 3. */
+    for (size_t s = 0; s < stored; s++)
+        if (seen[s] == 1) {
+            seen[s] = 3;
+            stream->place[stream->active++] = s;
+        }
+}
+
+static void pack_row(const galv_stream *stream, const double *raw, double *row)
+{
+    const size_t *place = stream->place;
+    for (size_t a = 0; a < stream->active; a++)
+        row[a] = raw[place[a]];
+    if (stream->shift)
+        for (size_t a = 0; a < stream->active; a++)
+            row[a] -= stream->shift[place[a]];
+    if (stream->scale)
+        for (size_t a = 0; a < stream->active; a++)
+            row[a] *= stream->scale[place[a]];
+}
+
+static galv_status row_not_finite(const galv_stream *stream, size_t sample, const double *raw)
+{
+    const galv_source *source = stream->source;
+    for (size_t s = 0; s < source->stored; s++)
+        if (!isfinite(raw[s]))
+            return galv_fail(GALV_ERROR_NUMERIC, "sample %zu: coordinate %zu is %g", sample,
+                             source->index[s], raw[s]);
+    return galv_fail(GALV_ERROR_NUMERIC, "sample %zu: its squared norm overflows", sample);
+}
+
+galv_status galv_stream_read(galv_stream *stream, size_t first, size_t count)
+{
+    galv_source *source = stream->source;
+    size_t stored = source->stored;
+    galv_status status = source->rows(source, first, count, stream->raw);
+    if (status)
+        return status;
+    if (stream->shift && first == 0)
+        memcpy(stream->shift, stream->raw, stored * sizeof *stream->shift);
+    discover(stream, count);
+    size_t active = stream->active;
+    long bad = -1;
+#pragma omp parallel for schedule(static)
+    for (size_t r = 0; r < count; r++) {
+        double *row = stream->rows + r * active, sum = 0;
+        pack_row(stream, stream->raw + r * stored, row);
+        for (size_t a = 0; a < active; a++)
+            sum += row[a] * row[a];
+        stream->energy[r] = sum;
+    }
+    for (size_t r = count; r-- > 0;)
+        if (!isfinite(stream->energy[r]))
+            bad = (long)r;
+    if (bad >= 0)
+        return row_not_finite(stream, first + (size_t)bad, stream->raw + (size_t)bad * stored);
+    return GALV_OK;
+}
+
+galv_status galv_stream_report(galv_stream *stream, size_t done)
+{
+    if (!stream->progress)
+        return GALV_OK;
+    double part = (double)done / (double)stream->source->samples;
+    double fraction = stream->progress_done + stream->progress_share * part;
+    if (stream->progress(stream->progress_context, fmin(fraction, 1)))
+        return galv_fail(GALV_ERROR_CANCELLED, "cancelled after %zu of %zu samples", done,
+                         stream->source->samples);
+    return GALV_OK;
+}
