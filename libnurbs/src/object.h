@@ -67,6 +67,9 @@ nurbs_status points_check(size_t n, const double *points, const double *weights)
 /* net = (w p, w) of n points. */
 void homogenize(size_t n, const double *points, const double *weights, double *net);
 
+/* Checks the arguments that every change of a surface has, and clears the result. */
+nurbs_status modify_check(const nurbs_surface *surface, int direction, nurbs_surface **result);
+
 /* Span of u, which must lie in the domain. */
 static inline size_t axis_span(const struct axis *axis, double u)
 {

@@ -24,6 +24,12 @@ NURBS_API nurbs_status nurbs_surface_insert(const nurbs_surface *surface, int di
 NURBS_API nurbs_status nurbs_surface_refine(const nurbs_surface *surface, int parts,
                                             nurbs_surface **result);
 
+/** Inserts knots until every non-empty span is one Bezier segment (patch): interior knots of
+ * multiplicity degree, degree * segments + 1 control points. */
+NURBS_API nurbs_status nurbs_curve_to_bezier(const nurbs_curve *curve, nurbs_curve **result);
+NURBS_API nurbs_status nurbs_surface_to_bezier(const nurbs_surface *surface,
+                                               nurbs_surface **result);
+
 /** Raises the degree by `by` >= 0; every distinct knot gains exactly `by` in multiplicity. */
 NURBS_API nurbs_status nurbs_curve_elevate(const nurbs_curve *curve, int by, nurbs_curve **result);
 NURBS_API nurbs_status nurbs_surface_elevate(const nurbs_surface *surface, int direction, int by,
@@ -35,12 +41,18 @@ NURBS_API nurbs_status nurbs_curve_part(const nurbs_curve *curve, double from, d
 NURBS_API nurbs_status nurbs_surface_part(const nurbs_surface *surface, int direction, double from,
                                           double to, nurbs_surface **result);
 
+/** The parts below and above an interior parameter. */
+NURBS_API nurbs_status nurbs_curve_split(const nurbs_curve *curve, double u, nurbs_curve **left,
+                                         nurbs_curve **right);
+NURBS_API nurbs_status nurbs_surface_split(const nurbs_surface *surface, int direction,
+                                           double value, nurbs_surface **low, nurbs_surface **high);
+
 NURBS_API nurbs_status nurbs_curve_reverse(const nurbs_curve *curve, nurbs_curve **result);
 NURBS_API nurbs_status nurbs_surface_reverse(const nurbs_surface *surface, int direction,
                                              nurbs_surface **result);
 /** Exchanges u and v (flips the normal Su x Sv). */
 NURBS_API nurbs_status nurbs_surface_swap(const nurbs_surface *surface, nurbs_surface **result);
-/** Applies p -> matrix p + shift; matrix is 3 x 3 row by row (NULL: identity). */
+/** Applies p -> matrix p + shift; matrix is 3 x 3 row by row (NULL: identity), shift NULL: none. */
 NURBS_API nurbs_status nurbs_surface_transform(const nurbs_surface *surface, const double *matrix,
                                                const double shift[3], nurbs_surface **result);
 
