@@ -20,7 +20,8 @@ typedef enum nurbs_parametrization {
     NURBS_FOLEY
 } nurbs_parametrization;
 
-/** Fills u[n], 0 to 1, for n points; coincident neighbours share a parameter only if all do. */
+/** Fills u[n], 0 to 1, for n points. Coincident neighbours share a parameter; if all points
+ * coincide, the parameters are uniform. */
 NURBS_API nurbs_status nurbs_parametrize(nurbs_parametrization kind, size_t n, const double *points,
                                          double *u);
 
@@ -50,6 +51,12 @@ NURBS_API void nurbs_skin_options_init(nurbs_skin_options *options);
  * defaults. */
 NURBS_API nurbs_status nurbs_skin(const nurbs_grid *grid, const nurbs_skin_options *options,
                                   nurbs_surface **surface);
+
+/** Fills u[rows] and v[columns]: the parameters of nurbs_skin, where its surface passes through the
+ * points of the grid. */
+NURBS_API nurbs_status nurbs_skin_parameters(const nurbs_grid *grid,
+                                             const nurbs_skin_options *options, double *u,
+                                             double *v);
 
 /** Surface through section curves of any degree and knots; they are first brought to one knot
  * vector within `tolerance` (metres; 0: exact union of knots). u[n] increasing section parameters,

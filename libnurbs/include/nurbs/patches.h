@@ -30,6 +30,17 @@ NURBS_API const char *nurbs_patches_note(const nurbs_patches *patches);
 NURBS_API nurbs_status nurbs_patches_set_length(nurbs_patches *patches, double length);
 NURBS_API double nurbs_patches_length(const nurbs_patches *patches);
 
+/** Parameters at which patch `index` gives the design grid back: u[rows] and v[columns],
+ * increasing, inside the domain of the patch. Kept in the JSON file ("parameters"); rows = columns
+ * = 0 removes them. Copies. Hand them to nurbs_grid_sample(). */
+NURBS_API nurbs_status nurbs_patches_set_parameters(nurbs_patches *patches, size_t index,
+                                                    size_t rows, const double *u, size_t columns,
+                                                    const double *v);
+/** Number of parameters in direction 0 (rows, u) or 1 (columns, v); 0 if none are kept. *values is
+ * borrowed. */
+NURBS_API size_t nurbs_patches_parameters(const nurbs_patches *patches, size_t index, int direction,
+                                          const double **values);
+
 #ifdef __cplusplus
 }
 #endif

@@ -30,6 +30,13 @@ NURBS_API nurbs_status nurbs_surface_wetted(const nurbs_surface *hull, double le
  * place (u,v) if there is one and returns NURBS_ERROR_GEOMETRY; uv may be NULL. */
 NURBS_API nurbs_status nurbs_surface_check_fold(const nurbs_surface *surface, double uv[2]);
 
+/** A half hull lifted onto y >= 0: control points with y < 0 move to y = 0 wherever the surface
+ * itself (sampled five times a knot span) would lie across the centre plane; everything else stays.
+ * Polynomial surfaces only.
+ * @param moved  fills the largest rise in metres, a bound of the surface's change; NULL allowed */
+NURBS_API nurbs_status nurbs_surface_raise_side(const nurbs_surface *surface,
+                                                nurbs_surface **result, double *moved);
+
 #ifdef __cplusplus
 }
 #endif

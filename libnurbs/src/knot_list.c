@@ -1,0 +1,76 @@
+#include "knot_list.h"
+
+#include "error.h"
+
+#include <stdlib.h>
+
+enum { MAX_SIZE = 10000 };
+
+static nurbs_status reserve(knot_list *list, size_t size)
+{
+    size_t needed = size + (size_t)list->degree + 1;
+    if (size > MAX_SIZE)
+        return nurbs_fail(
+            NURBS_ERROR_NUMERIC,
+            "more than %d control points in one direction would be needed to keep the "
+            "tolerance",
+            MAX_SIZE);
+    if (needed > list->room) {
+        double *larger = realloc(list->knots, 2 * needed * sizeof *larger);
+        if (!larger)
+            return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu knots", 2 * needed);
+        list->knots = larger;
+        list->room = 2 * needed;
+    }
+    return NURBS_OK;
+}
+
+nurbs_status knot_list_start(knot_list *list, int degree, const double range[2])
+{
+    size_t order = (size_t)degree + 1;
+    *list = (knot_list){.degree = degree};
+    nurbs_status status = reserve(list, order);
+    if (status != NURBS_OK)
+        return status;
+    list->size = order;
+    for (size_t k = 0; k < order; k++) {
+        list->knots[k] = range[0];
+        list->knots[order + k] = range[1];
+    }
+    return NURBS_OK;
+}
+
+void knot_list_free(knot_list *list)
+{
+    free(list->knots);
+    list->knots = NULL;
+}
+
+nurbs_status knot_list_append(knot_list *list, double knot)
+{
+    nurbs_status status = reserve(list, list->size + 1);
+    if (status != NURBS_OK)
+        return status;
+    double last = list->knots[list->size];
+    list->knots[list->size] = knot;
+    list->size++;
+    list->knots[list->size + (size_t)list->degree] = last;
+    return NURBS_OK;
+}
+
+nurbs_status knot_list_halve(knot_list *list, const unsigned char *split, size_t count)
+{
+    size_t old = list->size + (size_t)list->degree + 1, to = old + count;
+    nurbs_status status = reserve(list, list->size + count);
+    if (status != NURBS_OK)
+        return status;
+    double *t = list->knots;
+    for (size_t k = old; k-- > 0;) {
+        double knot = t[k];
+        t[--to] = knot;
+        if (k > 0 && split[k - 1])
+            t[--to] = 0.5 * (knot + t[k - 1]);
+    }
+    list->size += count;
+    return NURBS_OK;
+}

@@ -1,0 +1,31 @@
+/* Text files: read whole, written beside the target and renamed onto it, numbers always with a
+ * decimal point whatever the locale of the program. */
+#ifndef NURBS_TEXTFILE_H
+#define NURBS_TEXTFILE_H
+
+#include <nurbs/status.h>
+
+#include <locale.h>
+#include <stdio.h>
+
+/* The thread's numeric locale set to "C" until restored. */
+typedef struct numeric_locale {
+    locale_t plain, before;
+} numeric_locale;
+void numeric_locale_set(numeric_locale *scope);
+void numeric_locale_restore(numeric_locale *scope);
+
+/* Fills *text with the whole file and a terminating zero (caller frees) and *length. */
+nurbs_status textfile_read(const char *path, char **text, size_t *length);
+
+typedef struct outfile {
+    FILE *stream;
+    char *path, *temporary;
+    numeric_locale locale;
+} outfile;
+nurbs_status outfile_open(outfile *file, const char *path);
+/* Makes the file appear, or removes every trace of it and tells why. */
+nurbs_status outfile_commit(outfile *file);
+void outfile_abandon(outfile *file);
+
+#endif
