@@ -1,0 +1,24 @@
+/* Eight doubles at a time in portable GNU C vectors, and one function body compiled for several
+ * instruction sets. Vectors travel by pointer: passing them by value between functions of different
+ * instruction sets has no stable calling convention, even when inlined. */
+#ifndef IGABEM_KELVIN_SIMD_H
+#define IGABEM_KELVIN_SIMD_H
+
+#include <stdint.h>
+#include <string.h>
+
+#if defined(__x86_64__) && defined(__linux__) && !defined(ISOHULL_NO_MULTIVERSION)
+#define KELVIN_MULTIVERSION                                                                        \
+    __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define KELVIN_MULTIVERSION
+#endif
+
+#define KELVIN_INLINE static inline __attribute__((always_inline))
+
+enum { KELVIN_LANES = 8 };
+
+typedef double kelvin_vec __attribute__((vector_size(64)));
+typedef int64_t kelvin_ivec __attribute__((vector_size(64)));
+
+#endif
