@@ -83,9 +83,12 @@ typedef struct bayesopt_gp_options {
     bayesopt_noise noise;         /**< default BAYESOPT_NOISE_DETERMINISTIC */
     bayesopt_transform transform; /**< default BAYESOPT_TRANSFORM_NONE */
     bayesopt_choice choice;       /**< default BAYESOPT_CHOICE_POSTERIOR */
-    double prior_shift;    /**< prior log l ~ N(log(d)/2 + shift, variance) in units of a unit box;
-                                default NAN = choose between (0, 0.1) and (sqrt 2, 3) */
-    double prior_variance; /**< see prior_shift */
+    /** Prior log l_j = log(d)/2 + prior_shift + c + e_j with c ~ N(0, prior_common) shared by all
+     * variables and e_j ~ N(0, prior_variance), in units of a unit box: scales grow like sqrt(d) and are
+     * alike until the data say otherwise. */
+    double prior_shift;    /**< default 0 */
+    double prior_common;   /**< default 1 */
+    double prior_variance; /**< default NAN: 0.1 or 1, the likelier */
     size_t starts;         /**< optimiser starts of a cold fit; default 4 */
     size_t evaluations;    /**< likelihood evaluations per start; default 60 */
     uint64_t seed;         /**< of the random starts; default 1 */
@@ -152,7 +155,7 @@ typedef struct bayesopt_gp_info {
     double jitter;         /**< added to the diagonal, relative to its mean */
     double log_likelihood; /**< log p(modelled outputs | X) */
     double log_posterior;  /**< with the priors; equal to log_likelihood after set_parameters */
-    double gls_mean;       /**< generalised least-squares constant of the modelled outputs */
+    double mean;           /**< constant mean: fixed, or estimated by generalised least squares */
     size_t evaluations;    /**< likelihood evaluations of the last fit */
 } bayesopt_gp_info;
 

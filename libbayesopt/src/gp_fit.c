@@ -1,0 +1,479 @@
+/* Maximum a posteriori hyper-parameters, and the choice between models. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <nlopt.h>
+
+#include "error.h"
+#include "gp_internal.h"
+#include "random.h"
+
+static const double log_2pi = 1.8378770664093454836;
+
+/* Variance added to every output of deterministic data, in standardised squared units: it bounds the
+ * condition number of K by about n 1e8. */
+static const double deterministic_noise = 1e-8;
+
+/* Ranges of the search: length scales in units of the box, variances of standardised outputs. */
+static const double scale_range[2] = {0.01, 50};
+static const double signal_range[2] = {0.02, 1e4};
+static const double noise_range[2] = {1e-8, 0.5};
+
+/* Priors: log sf2 ~ N(0, 1.5^2), log sn2 ~ N(-4, 2^2) (learned noise). */
+static const double signal_deviation = 1.5;
+static const double noise_centre = -4, noise_deviation = 2;
+
+enum { MOST_PARAMETERS = 1002 };
+
+/* One of the models compared: how the length scales are tied and how far they may differ. */
+struct model {
+    bool isotropic;
+    double variance;
+};
+
+struct fit {
+    bayesopt_gp *gp;
+    struct model model;
+    size_t groups, parameters; /* log l per group, log sf2, log sn2 if learned */
+    const size_t *group;       /* [d] */
+    struct gp_scratch scratch;
+    double *lengthscale, *gradient; /* [d], [d + 2] */
+    double *best;                   /* [parameters] */
+    double best_value;
+    size_t evaluations;
+};
+
+static void unpack(const struct fit *fit, const double *theta, struct gp_theta *out)
+{
+    for (size_t j = 0; j < fit->gp->d; j++)
+        fit->lengthscale[j] = exp(theta[fit->group[j]]);
+    out->lengthscale = fit->lengthscale;
+    out->signal = exp(theta[fit->groups]);
+    out->noise = fit->parameters > fit->groups + 1 ? exp(theta[fit->groups + 1]) : deterministic_noise;
+}
+
+/* log prior density of theta and its gradient (added). The precision of common + own deviations is
+ * 1/v across the mean and 1/(v + G c) along it. */
+static double log_prior(const struct fit *fit, const double *theta, double *gradient)
+{
+    const bayesopt_gp_options *o = &fit->gp->options;
+    size_t groups = fit->groups;
+    double count = (double)groups, v = fit->model.variance, along = v + count * o->prior_common;
+    double centre = 0.5 * log((double)fit->gp->d) + o->prior_shift, mean = 0, square = 0;
+    for (size_t g = 0; g < groups; g++)
+        mean += (theta[g] - centre) / count;
+    for (size_t g = 0; g < groups; g++) {
+        double deviation = theta[g] - centre - mean;
+        square += deviation * deviation / v;
+        if (gradient)
+            gradient[g] -= deviation / v + mean / along;
+    }
+    double value = -0.5 * (square + count * mean * mean / along + (count - 1) * log(v) + log(along) +
+                           count * log_2pi);
+    double u = theta[groups] / signal_deviation;
+    value -= 0.5 * (u * u + log_2pi) + log(signal_deviation);
+    if (gradient)
+        gradient[groups] -= u / signal_deviation;
+    if (fit->parameters > groups + 1) {
+        u = (theta[groups + 1] - noise_centre) / noise_deviation;
+        value -= 0.5 * (u * u + log_2pi) + log(noise_deviation);
+        if (gradient)
+            gradient[groups + 1] -= u / noise_deviation;
+    }
+    return value;
+}
+
+static bool log_posterior(struct fit *fit, const double *theta, double *value, double *gradient)
+{
+    struct gp_theta unpacked;
+    unpack(fit, theta, &unpacked);
+    fit->evaluations++;
+    if (!gp_likelihood(fit->gp, &unpacked, &fit->scratch, value, gradient ? fit->gradient : NULL))
+        return false;
+    if (gradient) {
+        size_t d = fit->gp->d;
+        memset(gradient, 0, fit->parameters * sizeof *gradient);
+        for (size_t j = 0; j < d; j++)
+            gradient[fit->group[j]] += fit->gradient[j];
+        gradient[fit->groups] = fit->gradient[d];
+        if (fit->parameters > fit->groups + 1)
+            gradient[fit->groups + 1] = fit->gradient[d + 1];
+    }
+    *value += log_prior(fit, theta, gradient);
+    return isfinite(*value);
+}
+
+static double objective(unsigned k, const double *theta, double *gradient, void *data)
+{
+    struct fit *fit = data;
+    double value;
+    if (!log_posterior(fit, theta, &value, gradient)) {
+        if (gradient)
+            memset(gradient, 0, k * sizeof *gradient);
+        return 1e30;
+    }
+    for (unsigned i = 0; gradient && i < k; i++)
+        gradient[i] = -gradient[i];
+    if (value > fit->best_value) {
+        fit->best_value = value;
+        memcpy(fit->best, theta, k * sizeof *theta);
+    }
+    return -value;
+}
+
+static bayesopt_status climb(struct fit *fit, const double *start, size_t evaluations)
+{
+    unsigned k = (unsigned)fit->parameters;
+    double low[MOST_PARAMETERS], high[MOST_PARAMETERS], theta[MOST_PARAMETERS], value;
+    for (size_t g = 0; g < fit->groups; g++) {
+        low[g] = log(scale_range[0]);
+        high[g] = log(scale_range[1]);
+    }
+    low[fit->groups] = log(signal_range[0]);
+    high[fit->groups] = log(signal_range[1]);
+    if (fit->parameters > fit->groups + 1) {
+        low[fit->groups + 1] = log(noise_range[0]);
+        high[fit->groups + 1] = log(noise_range[1]);
+    }
+    nlopt_opt search = nlopt_create(NLOPT_LD_LBFGS, k);
+    if (!search)
+        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "gp: out of memory");
+    nlopt_set_min_objective(search, objective, fit);
+    nlopt_set_lower_bounds(search, low);
+    nlopt_set_upper_bounds(search, high);
+    nlopt_set_ftol_abs(search, 1e-3);
+    nlopt_set_maxeval(search, (int)evaluations);
+    for (unsigned i = 0; i < k; i++)
+        theta[i] = fmin(fmax(start[i], low[i]), high[i]);
+    /* A failed line search still leaves the best point seen in fit->best. */
+    nlopt_optimize(search, theta, &value);
+    nlopt_destroy(search);
+    return BAYESOPT_OK;
+}
+
+static bayesopt_status fit_create(struct fit *fit, bayesopt_gp *gp, struct model model,
+                                  const size_t *isotropic_groups)
+{
+    size_t groups = gp->d;
+    *fit = (struct fit){.gp = gp, .model = model, .best_value = -INFINITY, .group = gp->group};
+    if (model.isotropic) {
+        groups = 1;
+        fit->group = isotropic_groups;
+    } else if (gp->options.scales == BAYESOPT_SCALES_TIED) {
+        groups = 0;
+        for (size_t j = 0; j < gp->d; j++)
+            groups = gp->group[j] + 1 > groups ? gp->group[j] + 1 : groups;
+    }
+    fit->groups = groups;
+    fit->parameters = groups + 1 + (gp->options.noise == BAYESOPT_NOISE_LEARNED);
+    fit->lengthscale = malloc((4 * gp->d + 8) * sizeof(double));
+    bool ok = gp_scratch_create(&fit->scratch, gp->capacity);
+    if (!fit->lengthscale || !ok) {
+        free(fit->lengthscale);
+        if (ok)
+            gp_scratch_free(&fit->scratch);
+        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "gp: out of memory");
+    }
+    fit->gradient = fit->lengthscale + gp->d;
+    fit->best = fit->gradient + gp->d + 2;
+    return BAYESOPT_OK;
+}
+
+static void fit_free(struct fit *fit)
+{
+    gp_scratch_free(&fit->scratch);
+    free(fit->lengthscale);
+}
+
+/* Present hyper-parameters in the coordinates of a fit; groups get their members' mean. */
+static void pack(const struct fit *fit, double *theta)
+{
+    const bayesopt_gp *gp = fit->gp;
+    for (size_t g = 0; g < fit->groups; g++) {
+        double sum = 0, count = 0;
+        for (size_t j = 0; j < gp->d; j++)
+            if (fit->group[j] == g) {
+                sum += log(gp->lengthscale[j]);
+                count += 1;
+            }
+        theta[g] = sum / count;
+    }
+    theta[fit->groups] = log(gp->signal);
+    if (fit->parameters > fit->groups + 1)
+        theta[fit->groups + 1] = log(fmax(gp->noise, noise_range[0]));
+}
+
+/* The first start is 0.75 sqrt(d), others are drawn from the prior; short scales, where the gradient
+ * vanishes, are avoided. */
+static void draw_start(const struct fit *fit, size_t index, double *theta)
+{
+    struct random_stream stream;
+    random_start(&stream, fit->gp->options.seed, STREAM_FIT, index);
+    double centre = 0.5 * log((double)fit->gp->d) + fit->gp->options.prior_shift;
+    double common = index ? 0.7 * random_normal(&stream) : log(0.75);
+    for (size_t g = 0; g < fit->groups; g++) {
+        double own = index ? sqrt(fit->model.variance) * random_normal(&stream) : 0;
+        theta[g] = fmax(centre + common + own, log(0.1));
+    }
+    theta[fit->groups] = index ? 0.5 * random_normal(&stream) : 0;
+    if (fit->parameters > fit->groups + 1)
+        theta[fit->groups + 1] = index ? noise_centre + random_normal(&stream) : noise_centre;
+}
+
+static void adopt(struct fit *fit)
+{
+    bayesopt_gp *gp = fit->gp;
+    struct gp_theta theta;
+    unpack(fit, fit->best, &theta);
+    memcpy(gp->lengthscale, theta.lengthscale, gp->d * sizeof *gp->lengthscale);
+    gp->signal = theta.signal;
+    gp->noise = theta.noise;
+    gp->isotropic = fit->model.isotropic;
+    gp->wide = fit->model.variance > 0.5;
+    gp->log_posterior = fit->best_value;
+    gp->has_parameters = true;
+}
+
+/* Laplace's approximation of the log evidence: log posterior at the mode + k/2 log 2 pi - log det H/2,
+ * H by forward differences of the gradient. It charges a model for its freedom, which the density at
+ * the mode alone does not. */
+static double log_evidence(struct fit *fit)
+{
+    size_t k = fit->parameters;
+    double value, best = fit->best_value, logs = 0;
+    double *h = malloc((k * k + 3 * k) * sizeof *h);
+    if (!h)
+        return best;
+    double *at = h + k * k, *moved = at + k, *theta = moved + k;
+    const double step = 1e-3;
+    memcpy(theta, fit->best, k * sizeof *theta);
+    bool ok = log_posterior(fit, theta, &value, at);
+    for (size_t i = 0; i < k && ok; i++) {
+        double kept = theta[i];
+        theta[i] += step;
+        ok = log_posterior(fit, theta, &value, moved);
+        theta[i] = kept;
+        for (size_t j = 0; j < k && ok; j++)
+            h[i * k + j] = (at[j] - moved[j]) / step;
+    }
+    /* Symmetrise and eliminate; a direction without curvature counts with that of its prior. */
+    for (size_t i = 0; i < k && ok; i++)
+        for (size_t j = 0; j < i; j++)
+            h[i * k + j] = h[j * k + i] = 0.5 * (h[i * k + j] + h[j * k + i]);
+    for (size_t i = 0; i < k && ok; i++) {
+        double pivot = fmax(h[i * k + i], 0.1);
+        logs += log(pivot);
+        for (size_t j = i + 1; j < k; j++)
+            for (size_t c = i + 1; c < k; c++)
+                h[j * k + c] -= h[j * k + i] * h[i * k + c] / pivot;
+    }
+    free(h);
+    return ok ? best + 0.5 * ((double)k * log_2pi - logs) : best;
+}
+
+/* Leave-one-out log predictive density, Rasmussen and Williams eq. 5.10. */
+static double loo_density(bayesopt_gp *gp)
+{
+    double *mean = malloc(2 * gp->n * sizeof *mean), sum = 0;
+    if (!mean || bayesopt_gp_loo(gp, mean, mean + gp->n)) {
+        free(mean);
+        return -INFINITY;
+    }
+    for (size_t i = 0; i < gp->n; i++) {
+        double var = mean[gp->n + i], error = gp->t[i] - mean[i];
+        sum -= 0.5 * (log(var) + error * error / var + log_2pi);
+    }
+    free(mean);
+    return sum;
+}
+
+static size_t list_models(const bayesopt_gp *gp, struct model *models)
+{
+    const bayesopt_gp_options *o = &gp->options;
+    size_t count = 0;
+    if (gp->d > 1 && (o->scales == BAYESOPT_SCALES_AUTO || o->scales == BAYESOPT_SCALES_ISOTROPIC))
+        models[count++] = (struct model){true, 0.1};
+    if (gp->d > 1 && o->scales == BAYESOPT_SCALES_ISOTROPIC)
+        return count;
+    if (!isnan(o->prior_variance)) {
+        models[count++] = (struct model){false, o->prior_variance};
+        return count;
+    }
+    models[count++] = (struct model){false, 0.1};
+    if (gp->d > 1)
+        models[count++] = (struct model){false, 1};
+    return count;
+}
+
+static void remodel(bayesopt_gp *gp)
+{
+    for (size_t i = 0; i < gp->n; i++)
+        gp->t[i] = transform_apply(&gp->transform, gp->y[i]);
+}
+
+/* Log likelihood of the untransformed data with the scale of the outputs profiled out:
+ * the best signal variance is factor sf2 with factor = r'K^-1 r/n. */
+static double profiled_likelihood(bayesopt_gp *gp, const struct gp_theta *theta)
+{
+    double value, residual = 0, n = (double)gp->n, jacobian = 0;
+    remodel(gp);
+    if (!gp_likelihood(gp, theta, NULL, &value, NULL))
+        return -INFINITY;
+    for (size_t i = 0; i < gp->n; i++) {
+        residual += gp->alpha[i] * (gp->t[i] - (gp->p ? gp->beta[0] : gp->fixed_mean));
+        jacobian += log(transform_slope(&gp->transform, gp->y[i]));
+    }
+    return value + 0.5 * residual - 0.5 * n * (1 + log(residual / n)) + jacobian;
+}
+
+/* The transform that makes the data most likely under the present correlations, if it gains more than
+ * 2 over leaving them alone. */
+static bayesopt_status choose_transform(bayesopt_gp *gp)
+{
+    static const bayesopt_transform kinds[] = {BAYESOPT_TRANSFORM_LOG, BAYESOPT_TRANSFORM_YEO_JOHNSON};
+    struct gp_theta theta = {gp->lengthscale, gp->signal, gp->noise};
+    bayesopt_transform best = BAYESOPT_TRANSFORM_NONE;
+    bool ok = transform_estimate(&gp->transform, best, gp->n, gp->y);
+    double most = profiled_likelihood(gp, &theta) + 2;
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds && ok; i++) {
+        ok = transform_estimate(&gp->transform, kinds[i], gp->n, gp->y);
+        double value = profiled_likelihood(gp, &theta);
+        if (value > most) {
+            most = value;
+            best = kinds[i];
+        }
+    }
+    ok = ok && transform_estimate(&gp->transform, best, gp->n, gp->y);
+    remodel(gp);
+    return ok ? BAYESOPT_OK : bayesopt_fail(BAYESOPT_ERROR_MEMORY, "gp: out of memory");
+}
+
+static bayesopt_status estimate_transform(bayesopt_gp *gp)
+{
+    if (gp->options.transform == BAYESOPT_TRANSFORM_AUTO && gp->has_parameters && gp->n > 4)
+        return choose_transform(gp);
+    bool ok = transform_estimate(&gp->transform, gp->options.transform, gp->n, gp->y);
+    remodel(gp);
+    return ok ? BAYESOPT_OK : bayesopt_fail(BAYESOPT_ERROR_MEMORY, "gp: out of memory");
+}
+
+static bayesopt_status fit_warm(bayesopt_gp *gp, const size_t *isotropic_groups)
+{
+    struct fit fit;
+    double theta[MOST_PARAMETERS];
+    double variance = !isnan(gp->options.prior_variance) ? gp->options.prior_variance
+                      : gp->wide && !gp->isotropic       ? 1
+                                                         : 0.1;
+    struct model model = {gp->isotropic && gp->d > 1, variance};
+    bayesopt_status status = fit_create(&fit, gp, model, isotropic_groups);
+    if (status)
+        return status;
+    pack(&fit, theta);
+    status = climb(&fit, theta, gp->options.evaluations / 3 + 1);
+    if (!status && isfinite(fit.best_value))
+        adopt(&fit);
+    gp->evaluations = fit.evaluations;
+    fit_free(&fit);
+    return status;
+}
+
+static bayesopt_status fit_model(bayesopt_gp *gp, struct model model, const size_t *isotropic_groups,
+                                 bool compare, double *score)
+{
+    struct fit fit;
+    double theta[MOST_PARAMETERS];
+    bayesopt_status status = fit_create(&fit, gp, model, isotropic_groups);
+    if (status)
+        return status;
+    size_t starts = model.isotropic ? 2 : gp->options.starts;
+    for (size_t s = 0; s < starts && !status; s++) {
+        draw_start(&fit, s, theta);
+        status = climb(&fit, theta, gp->options.evaluations);
+    }
+    *score = -INFINITY;
+    if (!status && isfinite(fit.best_value)) {
+        *score = fit.best_value;
+        if (compare && gp->options.choice == BAYESOPT_CHOICE_POSTERIOR)
+            *score = log_evidence(&fit);
+        adopt(&fit);
+        if (compare && gp->options.choice == BAYESOPT_CHOICE_LOO)
+            *score = gp_condition(gp) ? loo_density(gp) : -INFINITY;
+    }
+    gp->evaluations += fit.evaluations;
+    fit_free(&fit);
+    return status;
+}
+
+static bayesopt_status fit_cold(bayesopt_gp *gp, const size_t *isotropic_groups)
+{
+    struct model models[3];
+    size_t count = list_models(gp, models);
+    double most = -INFINITY, score;
+    bayesopt_status status = BAYESOPT_OK;
+    struct bayesopt_gp kept = *gp;
+    double *lengthscale = malloc(gp->d * sizeof *lengthscale);
+    if (!lengthscale)
+        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "gp: out of memory");
+    gp->evaluations = 0;
+    for (size_t m = 0; m < count && !status; m++) {
+        status = fit_model(gp, models[m], isotropic_groups, count > 1, &score);
+        if (!status && score > most) {
+            most = score;
+            kept = *gp;
+            memcpy(lengthscale, gp->lengthscale, gp->d * sizeof *lengthscale);
+        }
+    }
+    if (!status && isfinite(most)) {
+        memcpy(gp->lengthscale, lengthscale, gp->d * sizeof *lengthscale);
+        gp->signal = kept.signal;
+        gp->noise = kept.noise;
+        gp->isotropic = kept.isotropic;
+        gp->wide = kept.wide;
+        gp->log_posterior = kept.log_posterior;
+    }
+    free(lengthscale);
+    return status;
+}
+
+/* Parameters that always condition: scales of half the box diagonal and much noise. */
+static void fall_back(bayesopt_gp *gp)
+{
+    for (size_t j = 0; j < gp->d; j++)
+        gp->lengthscale[j] = 0.5 * sqrt((double)gp->d);
+    gp->signal = 1;
+    gp->noise = 1e-4;
+    gp->has_parameters = true;
+}
+
+bayesopt_status bayesopt_gp_fit(bayesopt_gp *gp)
+{
+    if (!gp->n)
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "gp: fit without data");
+    size_t *isotropic_groups = calloc(gp->d, sizeof *isotropic_groups);
+    if (!isotropic_groups)
+        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "gp: out of memory");
+    if (gp->options.scales != BAYESOPT_SCALES_TIED)
+        for (size_t j = 0; j < gp->d; j++)
+            gp->group[j] = j;
+    bool cold = !gp->has_parameters;
+    bayesopt_status status = estimate_transform(gp);
+    if (!status)
+        status = cold ? fit_cold(gp, isotropic_groups) : fit_warm(gp, isotropic_groups);
+    if (!status && cold && gp->options.transform == BAYESOPT_TRANSFORM_AUTO && gp->has_parameters &&
+        gp->n > 4) {
+        status = choose_transform(gp);
+        if (!status && gp->transform.kind != BAYESOPT_TRANSFORM_NONE)
+            status = fit_warm(gp, isotropic_groups);
+    }
+    free(isotropic_groups);
+    if (status)
+        return status;
+    if (!gp->has_parameters || !gp_condition(gp)) {
+        fall_back(gp);
+        if (!gp_condition(gp))
+            return bayesopt_fail(BAYESOPT_ERROR_NUMERIC, "gp: %zu points cannot be conditioned on",
+                                 gp->n);
+    }
+    return BAYESOPT_OK;
+}

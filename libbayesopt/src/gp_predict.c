@@ -1,0 +1,181 @@
+/* Posterior, its gradients, leave-one-out, and the way between modelled and caller's outputs. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cblas.h>
+
+#include "error.h"
+#include "gp_internal.h"
+#include "kernel.h"
+#include "matrix.h"
+
+enum { BLOCK = 64 };
+
+static bayesopt_status need(const bayesopt_gp *gp, const char *what)
+{
+    return gp->conditioned
+               ? BAYESOPT_OK
+               : bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "gp: %s before the model is conditioned", what);
+}
+
+/* Variance due to the estimated mean: r' (H'K^-1 H)^-1 r with r = h - H'K^-1 k, Rasmussen and Williams
+ * eq. 2.42; overwrites r by (H'K^-1 H)^-1 r. */
+static double mean_variance(const bayesopt_gp *gp, double *r)
+{
+    matrix_forward(gp->p, gp->gram, gp->p, r);
+    double variance = cblas_ddot((int)gp->p, r, 1, r, 1);
+    matrix_backward(gp->p, gp->gram, gp->p, r);
+    return variance;
+}
+
+static double prior_mean(const bayesopt_gp *gp, const double *x)
+{
+    double mean = gp->p ? gp->beta[0] : gp->fixed_mean;
+    for (size_t c = 1; c < gp->p; c++)
+        mean += gp->beta[c] * x[c - 1];
+    return mean;
+}
+
+/* One block of m <= BLOCK points: k is n x BLOCK, columns d x BLOCK and rest p x BLOCK scratch. */
+static void predict_block(const bayesopt_gp *gp, size_t m, const double *x, double *mean, double *var,
+                          double *k, double *columns, double *rest)
+{
+    size_t n = gp->n, d = gp->d, p = gp->p;
+    double point[1000], r[1001];
+    for (size_t c = 0; c < m; c++) {
+        mean[c] = prior_mean(gp, x + c * d);
+        for (size_t j = 0; j < d; j++)
+            columns[j * BLOCK + c] = x[c * d + j] / gp->lengthscale[j];
+    }
+    for (size_t i = 0; i < n; i++) {
+        double *row = k + i * BLOCK;
+        for (size_t j = 0; j < d; j++)
+            point[j] = gp->scaled[j * gp->capacity + i];
+        kernel_distances(m, d, columns, BLOCK, point, row);
+        kernel_values(gp->options.kernel, m, row, row, NULL);
+        cblas_dscal((int)m, gp->signal, row, 1);
+        cblas_daxpy((int)m, gp->alpha[i], row, 1, mean, 1);
+    }
+    if (!var)
+        return;
+    matrix_solve_lower(n, gp->factor, gp->capacity, m, k, BLOCK);
+    memset(rest, 0, p * BLOCK * sizeof *rest);
+    for (size_t c = 0; c < m; c++)
+        var[c] = gp->signal;
+    for (size_t i = 0; i < n; i++) {
+        const double *row = k + i * BLOCK;
+        for (size_t c = 0; c < m; c++)
+            var[c] -= row[c] * row[c];
+        for (size_t b = 0; b < p; b++)
+            cblas_daxpy((int)m, -gp->solved[i * p + b], row, 1, rest + b * BLOCK, 1);
+    }
+    for (size_t c = 0; c < m; c++) {
+        gp_basis_row(gp, x + c * d, r);
+        for (size_t b = 0; b < p; b++)
+            r[b] += rest[b * BLOCK + c];
+        var[c] = fmax(var[c], 0) + mean_variance(gp, r);
+    }
+}
+
+bayesopt_status bayesopt_gp_predict(const bayesopt_gp *gp, size_t m, const double *x, double *mean,
+                                    double *var)
+{
+    bayesopt_status status = need(gp, "prediction");
+    if (status)
+        return status;
+    double *k = malloc((gp->n + gp->d + gp->p) * BLOCK * sizeof *k);
+    if (!k)
+        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "gp: out of memory");
+    double *columns = k + gp->n * BLOCK, *rest = columns + gp->d * BLOCK;
+    for (size_t c = 0; c < m; c += BLOCK)
+        predict_block(gp, m - c < BLOCK ? m - c : BLOCK, x + c * gp->d, mean + c, var ? var + c : NULL,
+                      k, columns, rest);
+    free(k);
+    return BAYESOPT_OK;
+}
+
+bayesopt_status bayesopt_gp_predict_gradient(const bayesopt_gp *gp, const double *x, double *mean,
+                                             double *var, double *dmean, double *dvar, double *work)
+{
+    bayesopt_status status = need(gp, "prediction");
+    if (status)
+        return status;
+    size_t n = gp->n, d = gp->d, p = gp->p, ld = gp->capacity;
+    double *k = work, *w = work + n, point[1000], r[1001];
+    for (size_t j = 0; j < d; j++)
+        point[j] = x[j] / gp->lengthscale[j];
+    kernel_distances(n, d, gp->scaled, ld, point, k);
+    kernel_values(gp->options.kernel, n, k, k, w);
+    cblas_dscal((int)n, gp->signal, k, 1);
+    cblas_dscal((int)n, gp->signal, w, 1);
+    *mean = prior_mean(gp, x) + cblas_ddot((int)n, k, 1, gp->alpha, 1);
+    gp_basis_row(gp, x, r);
+    matrix_forward(n, gp->factor, ld, k);
+    *var = fmax(gp->signal - cblas_ddot((int)n, k, 1, k, 1), 0);
+    for (size_t b = 0; b < p; b++)
+        r[b] -= cblas_ddot((int)n, gp->solved + b, (int)p, k, 1);
+    *var += mean_variance(gp, r);
+    matrix_backward(n, gp->factor, ld, k);
+    /* d var = -2 k'K^-1 dk - 2 (K^-1 H g)' dk + 2 g' dh with g = (H'K^-1 H)^-1 r */
+    for (size_t b = 0; b < p; b++)
+        cblas_daxpy((int)n, r[b], gp->basis + b, (int)p, k, 1);
+    for (size_t j = 0; j < d; j++) {
+        const double *column = gp->scaled + j * ld;
+        double slope = 0, spread = 0;
+#pragma omp simd reduction(+ : slope, spread)
+        for (size_t i = 0; i < n; i++) {
+            double dk = w[i] * (column[i] - point[j]);
+            slope += gp->alpha[i] * dk;
+            spread += k[i] * dk;
+        }
+        dmean[j] = slope / gp->lengthscale[j] + (p > 1 ? gp->beta[j + 1] : 0);
+        dvar[j] = -2 * spread / gp->lengthscale[j] + (p > 1 ? 2 * r[j + 1] : 0);
+    }
+    return BAYESOPT_OK;
+}
+
+double bayesopt_gp_to_model(const bayesopt_gp *gp, double y)
+{
+    return transform_apply(&gp->transform, y);
+}
+
+double bayesopt_gp_from_model(const bayesopt_gp *gp, double value)
+{
+    return transform_invert(&gp->transform, value);
+}
+
+bayesopt_status bayesopt_gp_log_likelihood(const bayesopt_gp *gp, double *value, double *gradient)
+{
+    bayesopt_status status = need(gp, "likelihood");
+    if (status)
+        return status;
+    *value = gp->log_likelihood;
+    if (!gradient)
+        return BAYESOPT_OK;
+    struct gp_scratch scratch;
+    if (!gp_scratch_create(&scratch, gp->capacity))
+        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "gp: out of memory");
+    struct gp_theta theta = {gp->lengthscale, gp->signal, gp->noise};
+    gp_likelihood_gradient(gp, &theta, &scratch, true, gradient);
+    gp_scratch_free(&scratch);
+    return BAYESOPT_OK;
+}
+
+bayesopt_status bayesopt_gp_loo(const bayesopt_gp *gp, double *mean, double *var)
+{
+    bayesopt_status status = need(gp, "leave-one-out");
+    if (status)
+        return status;
+    size_t ld = gp->capacity;
+    double *inverse = malloc(2 * ld * ld * sizeof *inverse);
+    if (!inverse)
+        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "gp: out of memory");
+    matrix_inverse(gp->n, gp->factor, ld, inverse, inverse + ld * ld);
+    for (size_t i = 0; i < gp->n; i++) {
+        var[i] = 1 / inverse[i * ld + i];
+        mean[i] = gp->t[i] - gp->alpha[i] * var[i];
+    }
+    free(inverse);
+    return BAYESOPT_OK;
+}

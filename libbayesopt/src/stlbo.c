@@ -1,0 +1,156 @@
+/* Sampling by teaching and learning after Khan and Gunpinar, Computer-Aided Design 100 (2018) 52-67:
+ * one sub-population of learners per sample, its teacher is the sample; the cost favours space filling
+ * (Audze-Eglais) and one-dimensional strata of their own, and penalises violated constraints. The
+ * phases are those of Rao, Savsani and Vakharia, Computer-Aided Design 43 (2011) 303. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "design_internal.h"
+#include "error.h"
+
+enum { LEARNERS = 10, MOST_SWEEPS = 200, QUIET_SWEEPS = 10 };
+
+struct school {
+    size_t n, d;
+    const bayesopt_design_options *options;
+    struct region *region;
+    double *learners; /* [n x LEARNERS x d] */
+    double *costs;    /* [LEARNERS] of the present sub-population */
+    double *teachers; /* [n x d] */
+    double *mean, *moved;
+    double unit; /* energy of a typical point: scale of the other terms */
+};
+
+static double cost(struct school *s, size_t self, const double *x)
+{
+    const bayesopt_design_options *o = s->options;
+    double energy = 0, shared = 0, bins = (double)(s->n + o->n_existing);
+    for (size_t k = 0; k < s->n + o->n_existing; k++) {
+        const double *other = k < s->n ? s->teachers + k * s->d : o->existing + (k - s->n) * s->d;
+        if (k == self)
+            continue;
+        energy += design_pair_energy(design_distance2(s->d, x, other), o->power);
+        for (size_t j = 0; j < s->d; j++)
+            shared += floor(x[j] * bins) == floor(other[j] * bins);
+    }
+    double violation = s->options->n_constraints ? region_violation(s->region, x) : 0;
+    if (isinf(violation))
+        return INFINITY;
+    /* Static penalty: any violation costs more than the worst feasible place. */
+    double penalty = violation > 0 ? 1e3 * s->unit * (1 + violation) : 0;
+    return energy + o->latin_weight * s->unit * shared / (double)s->d + penalty;
+}
+
+static void try_move(struct school *s, size_t p, size_t i)
+{
+    for (size_t j = 0; j < s->d; j++)
+        s->moved[j] = fmin(fmax(s->moved[j], 0), 1);
+    double value = cost(s, p, s->moved);
+    if (value < s->costs[i]) {
+        s->costs[i] = value;
+        memcpy(s->learners + (p * LEARNERS + i) * s->d, s->moved, s->d * sizeof *s->moved);
+    }
+}
+
+static void teach(struct school *s, size_t p, struct random_stream *stream)
+{
+    const double *learners = s->learners + p * LEARNERS * s->d, *teacher = s->teachers + p * s->d;
+    memset(s->mean, 0, s->d * sizeof *s->mean);
+    for (size_t i = 0; i < LEARNERS; i++)
+        for (size_t j = 0; j < s->d; j++)
+            s->mean[j] += learners[i * s->d + j] / LEARNERS;
+    for (size_t i = 0; i < LEARNERS; i++) {
+        double factor = (double)(1 + random_below(stream, 2));
+        for (size_t j = 0; j < s->d; j++)
+            s->moved[j] = learners[i * s->d + j] +
+                          random_uniform(stream) * (teacher[j] - factor * s->mean[j]);
+        try_move(s, p, i);
+    }
+}
+
+static void learn(struct school *s, size_t p, struct random_stream *stream)
+{
+    const double *learners = s->learners + p * LEARNERS * s->d;
+    for (size_t i = 0; i < LEARNERS; i++) {
+        size_t k = (i + 1 + random_below(stream, LEARNERS - 1)) % LEARNERS;
+        double sign = s->costs[i] < s->costs[k] ? 1 : -1;
+        for (size_t j = 0; j < s->d; j++) {
+            double a = learners[i * s->d + j], b = learners[k * s->d + j];
+            s->moved[j] = a + sign * random_uniform(stream) * (a - b);
+        }
+        try_move(s, p, i);
+    }
+}
+
+/* Costs move with the teachers of the others, so they are taken anew for every visit. Returns the cost
+ * of the new teacher. */
+static double visit(struct school *s, size_t p, struct random_stream *stream)
+{
+    double *learners = s->learners + p * LEARNERS * s->d;
+    for (size_t i = 0; i < LEARNERS; i++)
+        s->costs[i] = cost(s, p, learners + i * s->d);
+    teach(s, p, stream);
+    learn(s, p, stream);
+    size_t best = 0;
+    for (size_t i = 1; i < LEARNERS; i++)
+        best = s->costs[i] < s->costs[best] ? i : best;
+    memcpy(s->teachers + p * s->d, learners + best * s->d, s->d * sizeof *learners);
+    return s->costs[best];
+}
+
+static void sweep_until_quiet(struct school *s, struct random_stream *stream)
+{
+    double last = INFINITY;
+    for (int sweep = 0, quiet = 0; sweep < MOST_SWEEPS && quiet < QUIET_SWEEPS; sweep++) {
+        double total = 0;
+        for (size_t p = 0; p < s->n; p++)
+            total += visit(s, p, stream);
+        quiet = fabs(last - total) < 1e-4 * fabs(total) ? quiet + 1 : 0;
+        last = total;
+    }
+}
+
+/* Learners that start inside the region: the penalty then only has to keep them there. */
+static bayesopt_status enrol(struct school *s, struct random_stream *stream)
+{
+    for (size_t i = 0; i < s->n * LEARNERS; i++) {
+        double *x = s->learners + i * s->d;
+        design_uniform(1, s->d, stream, x);
+        if (s->options->n_constraints && !region_contains(s->region, x) &&
+            !region_project(s->region, x) && !region_find(s->region, stream, x))
+            return bayesopt_fail(BAYESOPT_ERROR_INFEASIBLE,
+                                 "design: no point among 2000 uniform ones and 200 projections "
+                                 "satisfies the %zu input constraints",
+                                 s->region->m);
+    }
+    for (size_t p = 0; p < s->n; p++)
+        memcpy(s->teachers + p * s->d, s->learners + p * LEARNERS * s->d,
+               s->d * sizeof *s->teachers);
+    for (size_t p = 0; p < s->n; p++)
+        for (size_t q = 0; q < p; q++)
+            s->unit += 2 / (double)s->n *
+                       design_pair_energy(design_distance2(s->d, s->teachers + p * s->d,
+                                                           s->teachers + q * s->d),
+                                          s->options->power);
+    return BAYESOPT_OK;
+}
+
+bayesopt_status design_stlbo(size_t n, size_t d, const bayesopt_design_options *options,
+                             struct region *region, double *x)
+{
+    struct random_stream stream;
+    struct school s = {.n = n, .d = d, .options = options, .region = region, .teachers = x};
+    s.learners = malloc((n * LEARNERS * d + LEARNERS + 2 * d) * sizeof *s.learners);
+    if (!s.learners)
+        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "design: out of memory");
+    s.costs = s.learners + n * LEARNERS * d;
+    s.mean = s.costs + LEARNERS;
+    s.moved = s.mean + d;
+    random_start(&stream, options->seed, STREAM_TEACH, 0);
+    bayesopt_status status = enrol(&s, &stream);
+    if (!status)
+        sweep_until_quiet(&s, &stream);
+    free(s.learners);
+    return status;
+}
