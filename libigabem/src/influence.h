@@ -1,0 +1,56 @@
+/* Velocity that unit density coefficients induce at the collocation points, part by part of the
+ * Green function. A part is an array v[n][3][n]: collocation point, component, unknown; principal
+ * values, without the jump sigma/2 n. Velocities are grad of the part divided by 4 pi:
+ *     rankine   -1/r,    image   +1/r'    (both with the mirror images in y),
+ *     local     k0 N,    wave    k0 W. */
+#ifndef INFLUENCE_H
+#define INFLUENCE_H
+
+#include "cell.h"
+
+enum { REGULAR_CLASSES = 4, REGULAR_MOST = 6 + ELEMENT_SIDE / 2 };
+
+/* A tensor Gauss rule on one element with the basis folded in: f[node][function]. */
+struct regular_rule {
+    size_t n;
+    double *x, *y, *z, *f;
+};
+
+struct influence {
+    const struct density *density;
+    const struct mesh *mesh;
+    struct gauss gauss;
+    double tolerance;                /* absolute, of one element's influence */
+    double (*centre)[3], (*half)[2]; /* of the elements */
+    struct regular_rule *regular;    /* [element][class along u][class along v] */
+    double *storage;
+    int threads;
+};
+
+igabem_status influence_create(const struct density *density, const struct mesh *mesh,
+                               double tolerance, int threads, struct influence **influence);
+void influence_free(struct influence *influence);
+
+/* Class (index of the rule) for a number of points, REGULAR_CLASSES if none is fine enough. */
+int regular_class(const struct element *element, int direction, int points);
+
+const struct regular_rule *regular_rule_of(const struct influence *influence, size_t element,
+                                           const int class[2]);
+
+/* Adds sum_node k[c * stride + node] f[node][.] to rows[c * row_stride + unknown], c < fields. */
+void regular_scatter(const struct element *element, const struct regular_rule *rule, size_t fields,
+                     const double *k, size_t stride, double *rows, size_t row_stride);
+
+/* Whether the element's closure contains a collocation point; its local parameters there. */
+int element_contains(const struct density *density, const struct element *element, size_t point,
+                     double local[2]);
+
+/* Fills rankine and image (NULL: not wanted). progress as in the options. */
+igabem_status influence_rankine(const struct influence *influence, double *rankine, double *image);
+
+/* Adds the local part of surface sources to local, for the collocation points with row[i] != 0
+ * (NULL: all). */
+igabem_status influence_local(const struct influence *influence, double k0, const char *row,
+                              double *local);
+
+#endif

@@ -1,0 +1,190 @@
+#include "constants.h"
+#include "error.h"
+#include "influence.h"
+#include "quadrature_near.h"
+#include "quadrature_regular.h"
+
+#include <igabem/kelvin.h>
+#include <math.h>
+#include <omp.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Elements far enough from both images of the point share their regular rules. */
+struct far_element {
+    size_t element, first; /* first node of the batch */
+    const struct regular_rule *rule;
+};
+
+struct local_work {
+    struct nodes nodes[2]; /* per image */
+    struct far_element *far;
+    size_t far_elements, far_nodes;
+    double *batch; /* X, Y, Z and the three derivatives, `capacity` each */
+    size_t capacity;
+};
+
+static int reserve(struct local_work *work, size_t n)
+{
+    if (n <= work->capacity)
+        return 1;
+    free(work->batch);
+    work->capacity = n + n / 2;
+    work->batch = malloc(6 * work->capacity * sizeof *work->batch);
+    if (!work->batch)
+        work->capacity = 0;
+    return work->batch != NULL;
+}
+
+/* Nodes of the elements: regular where possible, else divided towards the image that is near, and
+ * always divided at x = x_P, where N has a kink. */
+static void collect(const struct influence *influence, double k0, const double image[2][3],
+                    int images, struct local_work *work)
+{
+    const struct mesh *mesh = influence->mesh;
+    struct near_rule rule = {
+        .k0 = k0, .tolerance = influence->tolerance, .gauss = &influence->gauss};
+    double x = image[0][0];
+    work->far_elements = work->far_nodes = 0;
+    for (int i = 0; i < images; i++)
+        nodes_clear(&work->nodes[i]);
+    for (size_t e = 0; e < mesh->n; e++) {
+        const struct element *element = &mesh->element[e];
+        const double *centre = influence->centre[e], *half = influence->half[e];
+        double slack = 1e-9 * (half[0] + half[1]);
+        int cut = element->box[0][0] < x - slack && element->box[1][0] > x + slack;
+        int class[2] = {0, 0};
+        for (int i = 0; i < images && !cut; i++) {
+            double dx = centre[0] - x, dy = centre[1] - image[i][1], dz = centre[2] - image[i][2];
+            double distance = sqrt(dx * dx + dy * dy + dz * dz);
+            double scale = near_scale(&rule, 4.0 * half[0] * half[1], distance);
+            for (int d = 0; d < 2; d++) {
+                int points =
+                    regular_points(distance - half[1 - d], half[d], scale, influence->tolerance);
+                int c = regular_class(element, d, points);
+                class[d] = c > class[d] ? c : class[d];
+            }
+        }
+        if (!cut && class[0] < REGULAR_CLASSES && class[1] < REGULAR_CLASSES) {
+            const struct regular_rule *regular = regular_rule_of(influence, e, class);
+            work->far[work->far_elements++] = (struct far_element){e, work->far_nodes, regular};
+            work->far_nodes += regular->n;
+            continue;
+        }
+        struct domain pieces[DOMAIN_PIECES];
+        size_t n = 1;
+        if (cut)
+            n = domain_cut(element, x, pieces);
+        else
+            domain_whole(element, pieces);
+        for (int i = 0; i < images; i++) {
+            memcpy(rule.point, image[i], sizeof rule.point);
+            for (size_t k = 0; k < n; k++)
+                near_nodes(&rule, &pieces[k], &work->nodes[i]);
+        }
+    }
+}
+
+static void scale_into(double k0, const double image[3], size_t n, const double *x, const double *y,
+                       const double *z, double *X, double *Y, double *Z)
+{
+    for (size_t i = 0; i < n; i++) {
+        X[i] = k0 * (image[0] - x[i]);
+        Y[i] = k0 * (image[1] - y[i]);
+        Z[i] = k0 * (z[i] - image[2]);
+    }
+}
+
+/* All nodes of the point in one call of the Green function. */
+static igabem_status evaluate(double k0, const double image[2][3], int images,
+                              struct local_work *work, size_t *total)
+{
+    size_t n = work->far_nodes * (size_t)images;
+    for (int i = 0; i < images; i++) {
+        if (work->nodes[i].failed)
+            return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for quadrature nodes");
+        n += work->nodes[i].n;
+    }
+    *total = n;
+    if (!reserve(work, n))
+        return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu nodes", n);
+    double *X = work->batch, *Y = X + n, *Z = Y + n, *v = Z + n;
+    size_t at = 0;
+    for (int i = 0; i < images; i++)
+        for (size_t e = 0; e < work->far_elements; e++) {
+            const struct regular_rule *rule = work->far[e].rule;
+            scale_into(k0, image[i], rule->n, rule->x, rule->y, rule->z, X + at, Y + at, Z + at);
+            at += rule->n;
+        }
+    for (int i = 0; i < images; i++) {
+        const struct nodes *nodes = &work->nodes[i];
+        scale_into(k0, image[i], nodes->n, nodes->x, nodes->y, nodes->z, X + at, Y + at, Z + at);
+        at += nodes->n;
+    }
+    return igabem_kelvin_local(n, X, Y, Z, NULL, v, v + n, v + 2 * n);
+}
+
+/* Turns the derivatives into velocities; the second half of the far nodes and of the near ones
+ * belong to the image in y. */
+static void scatter(const struct influence *influence, double k0, int images,
+                    struct local_work *work, size_t n, double *rows)
+{
+    double *v = work->batch + 3 * n, factor = k0 * k0 / (4.0 * PI);
+    size_t far = work->far_nodes, stride = influence->density->n;
+    for (size_t i = 0; i < 3 * n; i++)
+        v[i] *= factor;
+    for (size_t c = 0; c < 3 && images == 2; c++)
+        for (size_t i = 0; i < far; i++)
+            v[c * n + i] += c == 1 ? -v[c * n + far + i] : v[c * n + far + i];
+    for (size_t e = 0; e < work->far_elements; e++) {
+        const struct far_element *entry = &work->far[e];
+        regular_scatter(&influence->mesh->element[entry->element], entry->rule, 3, v + entry->first,
+                        n, rows, stride);
+    }
+    size_t at = far * (size_t)images;
+    for (int i = 0; i < images; at += work->nodes[i].n, i++) {
+        double *vy = v + n + at;
+        for (size_t k = 0; k < work->nodes[i].n && i == 1; k++)
+            vy[k] = -vy[k];
+        nodes_scatter(&work->nodes[i], 3, v + at, n, rows, stride);
+    }
+}
+
+igabem_status influence_local(const struct influence *influence, double k0, const char *row,
+                              double *local)
+{
+    const struct density *density = influence->density;
+    size_t n = density->n;
+    int images = density->symmetric ? 2 : 1;
+    igabem_status result = IGABEM_OK;
+#pragma omp parallel num_threads(influence->threads)
+    {
+        struct local_work work = {0};
+        for (int i = 0; i < 2; i++)
+            nodes_init(&work.nodes[i], influence->mesh);
+        work.far = malloc(influence->mesh->n * sizeof *work.far);
+        igabem_status status =
+            work.far ? IGABEM_OK : igabem_fail(IGABEM_ERROR_MEMORY, "no memory for a matrix row");
+#pragma omp for schedule(dynamic, 4)
+        for (size_t i = 0; i < n; i++) {
+            if (status != IGABEM_OK || (row && !row[i]))
+                continue;
+            const double *p = density->point + 3 * i;
+            double image[2][3] = {{p[0], p[1], -p[2]}, {p[0], -p[1], -p[2]}};
+            size_t total = 0;
+            collect(influence, k0, (const double(*)[3])image, images, &work);
+            status = evaluate(k0, (const double(*)[3])image, images, &work, &total);
+            if (status == IGABEM_OK)
+                scatter(influence, k0, images, &work, total, local + 3 * n * i);
+        }
+#pragma omp critical
+        if (status != IGABEM_OK)
+            result = status;
+        for (int i = 0; i < 2; i++)
+            nodes_free(&work.nodes[i]);
+        free(work.far);
+        free(work.batch);
+    }
+    return result == IGABEM_OK ? result
+                               : igabem_fail(result, "the local part of the Green function failed");
+}

@@ -1,0 +1,230 @@
+#include "constants.h"
+#include "error.h"
+#include "influence.h"
+#include "quadrature_near.h"
+#include "quadrature_regular.h"
+#include "quadrature_singular.h"
+#include "wave_math.h"
+
+#include <math.h>
+#include <omp.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* One of the reflections of the field point that stand for the images of the sources. */
+struct reflection {
+    double y, z;
+};
+
+static const struct reflection reflections[4] = {{1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
+
+/* sign (P - Q)/(4 pi r^3), its components multiplied by the reflection, added to k[3][stride]. */
+WAVE_INLINE void kernel(const double p[3], const struct reflection *reflection, double sign,
+                        size_t n, const double *x, const double *y, const double *z, double *k,
+                        size_t stride)
+{
+    double sx = sign / (4.0 * PI), sy = sx * reflection->y, sz = sx * reflection->z;
+    double *kx = k, *ky = k + stride, *kz = k + 2 * stride;
+    for (size_t i = 0; i < n; i++) {
+        double dx = p[0] - x[i], dy = p[1] - y[i], dz = p[2] - z[i];
+        double r2 = dx * dx + dy * dy + dz * dz, inverse = 1.0 / (r2 * sqrt(r2));
+        kx[i] += sx * dx * inverse;
+        ky[i] += sy * dy * inverse;
+        kz[i] += sz * dz * inverse;
+    }
+}
+
+WAVE_MULTIVERSION
+static void kernel_batch(const double p[3], const struct reflection *reflection, double sign,
+                         const struct nodes *nodes, double *k)
+{
+    memset(k, 0, 3 * nodes->n * sizeof *k);
+    kernel(p, reflection, sign, nodes->n, nodes->x, nodes->y, nodes->z, k, nodes->n);
+}
+
+struct rankine_work {
+    struct nodes nodes;
+    double *k;
+    size_t capacity;
+};
+
+static void reflect(const double p[3], const struct reflection *reflection, double out[3])
+{
+    out[0] = p[0];
+    out[1] = reflection->y * p[1];
+    out[2] = reflection->z * p[2];
+}
+
+static igabem_status flush(struct rankine_work *work, const double p[3],
+                           const struct reflection *reflection, double *rows, size_t stride)
+{
+    struct nodes *nodes = &work->nodes;
+    if (!nodes->failed && 3 * nodes->n > work->capacity) {
+        free(work->k);
+        work->capacity = 3 * nodes->capacity;
+        work->k = malloc(work->capacity * sizeof *work->k);
+    }
+    if (nodes->failed || (nodes->n && !work->k))
+        return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for quadrature nodes");
+    kernel_batch(p, reflection, reflection->z, nodes, work->k);
+    nodes_scatter(nodes, 3, work->k, nodes->n, rows, stride);
+    nodes_clear(nodes);
+    return IGABEM_OK;
+}
+
+/* The correction of the principal value, at the point itself. */
+static void add_correction(const struct element *element, const double local[2],
+                           const double correction[3], double *rows, size_t stride)
+{
+    size_t m = (size_t)element->degree[0] + 1, n = (size_t)element->degree[1] + 1;
+    double bu[ELEMENT_SIDE], bv[ELEMENT_SIDE], moments[3 * ELEMENT_FUNCTIONS];
+    bernstein(element->degree[0], local[0], bu, NULL);
+    bernstein(element->degree[1], local[1], bv, NULL);
+    for (size_t c = 0; c < 3; c++)
+        for (size_t a = 0; a < m * n; a++)
+            moments[c * m * n + a] = correction[c] * bu[a / n] * bv[a % n];
+    element_scatter(element, 3, moments, rows, stride);
+}
+
+struct far_view {
+    int class[2];
+    unsigned images; /* bit i: reflection i is far enough */
+};
+
+/* Which images an element is far enough from, and the finest rule that any of them needs. */
+static struct far_view look(const struct influence *influence, size_t e, const double image[4][3],
+                            int images)
+{
+    const struct element *element = &influence->mesh->element[e];
+    const double *centre = influence->centre[e], *half = influence->half[e];
+    const struct near_rule rule = {.tolerance = influence->tolerance};
+    struct far_view view = {{0, 0}, 0};
+    for (int i = 0; i < images; i++) {
+        double dx = centre[0] - image[i][0], dy = centre[1] - image[i][1],
+               dz = centre[2] - image[i][2], distance = sqrt(dx * dx + dy * dy + dz * dz);
+        double scale = near_scale(&rule, 4.0 * half[0] * half[1], distance);
+        int class[2];
+        for (int d = 0; d < 2; d++)
+            class[d] = regular_class(
+                element, d,
+                regular_points(distance - half[1 - d], half[d], scale, influence->tolerance));
+        if (class[0] == REGULAR_CLASSES || class[1] == REGULAR_CLASSES)
+            continue;
+        view.images |= 1u << i;
+        for (int d = 0; d < 2; d++)
+            view.class[d] = class[d] > view.class[d] ? class[d] : view.class[d];
+    }
+    return view;
+}
+
+/* Elements at a distance from the point: shared nodes, all images summed before the basis. */
+WAVE_MULTIVERSION
+static void far_rows(const struct influence *influence, const double image[4][3],
+                     const struct far_view *views, int images, double *direct, double *mirrored,
+                     size_t stride)
+{
+    for (size_t e = 0; e < influence->mesh->n; e++) {
+        const struct far_view *view = &views[e];
+        if (!view->images)
+            continue;
+        const struct regular_rule *rule = regular_rule_of(influence, e, view->class);
+        double k[2][3 * REGULAR_MOST * REGULAR_MOST];
+        memset(k[0], 0, 3 * rule->n * sizeof(double));
+        memset(k[1], 0, 3 * rule->n * sizeof(double));
+        for (int i = 0; i < images; i++)
+            if (view->images >> i & 1u)
+                kernel(image[i], &reflections[i], reflections[i].z, rule->n, rule->x, rule->y,
+                       rule->z, k[i & 1], rule->n);
+        const struct element *element = &influence->mesh->element[e];
+        if (direct)
+            regular_scatter(element, rule, 3, k[0], rule->n, direct, stride);
+        if (mirrored)
+            regular_scatter(element, rule, 3, k[1], rule->n, mirrored, stride);
+    }
+}
+
+static igabem_status near_rows(const struct influence *influence, size_t point,
+                               const double image[4][3], const struct far_view *views, int i,
+                               struct rankine_work *work, double *rows)
+{
+    const struct density *density = influence->density;
+    struct near_rule rule = {.point = {image[i][0], image[i][1], image[i][2]},
+                             .tolerance = influence->tolerance,
+                             .gauss = &influence->gauss};
+    for (size_t e = 0; e < influence->mesh->n; e++) {
+        if (views[e].images >> i & 1u)
+            continue;
+        const struct element *element = &influence->mesh->element[e];
+        double local[2], correction[3];
+        if (i == 0 && element_contains(density, element, point, local)) {
+            singular_nodes(element, local[0], local[1], singular_order(influence->tolerance),
+                           &influence->gauss, &work->nodes, correction);
+            add_correction(element, local, correction, rows, density->n);
+            continue;
+        }
+        struct domain domain;
+        domain_whole(element, &domain);
+        near_nodes(&rule, &domain, &work->nodes);
+    }
+    return flush(work, image[i], &reflections[i], rows, density->n);
+}
+
+static igabem_status point_rows(const struct influence *influence, size_t point,
+                                struct rankine_work *work, struct far_view *views, double *direct,
+                                double *mirrored)
+{
+    const struct density *density = influence->density;
+    int images = density->symmetric ? 4 : 2;
+    double image[4][3];
+    for (int i = 0; i < images; i++)
+        reflect(density->point + 3 * point, &reflections[i], image[i]);
+    for (size_t e = 0; e < influence->mesh->n; e++) {
+        double local[2];
+        views[e] = look(influence, e, (const double(*)[3])image, images);
+        if (element_contains(density, &influence->mesh->element[e], point, local))
+            views[e].images &= ~1u;
+    }
+    far_rows(influence, (const double(*)[3])image, views, images, direct, mirrored, density->n);
+    igabem_status status = IGABEM_OK;
+    for (int i = 0; i < images && status == IGABEM_OK; i++) {
+        double *rows = i & 1 ? mirrored : direct;
+        if (rows)
+            status = near_rows(influence, point, (const double(*)[3])image, views, i, work, rows);
+    }
+    return status;
+}
+
+igabem_status influence_rankine(const struct influence *influence, double *rankine, double *image)
+{
+    size_t n = influence->density->n;
+    igabem_status result = IGABEM_OK;
+#pragma omp parallel num_threads(influence->threads)
+    {
+        struct rankine_work work = {0};
+        nodes_init(&work.nodes, influence->mesh);
+        struct far_view *views = malloc(influence->mesh->n * sizeof *views);
+        igabem_status status =
+            views ? IGABEM_OK : igabem_fail(IGABEM_ERROR_MEMORY, "no memory for a matrix row");
+#pragma omp for schedule(dynamic, 4)
+        for (size_t i = 0; i < n; i++) {
+            if (status != IGABEM_OK)
+                continue;
+            double *direct = rankine ? rankine + 3 * n * i : NULL;
+            double *mirrored = image ? image + 3 * n * i : NULL;
+            if (direct)
+                memset(direct, 0, 3 * n * sizeof *direct);
+            if (mirrored)
+                memset(mirrored, 0, 3 * n * sizeof *mirrored);
+            status = point_rows(influence, i, &work, views, direct, mirrored);
+        }
+#pragma omp critical
+        if (status != IGABEM_OK)
+            result = status;
+        nodes_free(&work.nodes);
+        free(work.k);
+        free(views);
+    }
+    return result == IGABEM_OK ? result
+                               : igabem_fail(result, "no memory for the Rankine integrals");
+}
