@@ -133,6 +133,10 @@ IGABEM_API igabem_status igabem_surface_velocity(const igabem_solution *solution
                                                  size_t n, const double *uv, double *velocity,
                                                  double *cp);
 
+/** Source density at n parameters uv of a patch: fills sigma[n], m/s. */
+IGABEM_API igabem_status igabem_source_density(const igabem_solution *solution, size_t patch,
+                                               size_t n, const double *uv, double *sigma);
+
 /** Kochin function at n wave angles t = tan(theta): fills h[n][2], real and imaginary part, and, if
  * not NULL, dcw[n] = d C_w / d t. */
 IGABEM_API igabem_status igabem_kochin(const igabem_solution *solution, size_t n, const double *t,
