@@ -70,6 +70,16 @@ typedef struct galv_options {
 GALV_API void galv_options_init(galv_options *options);
 
 /**
+ * Weights of true area for a structured grid: a quarter of the area of the cells around each point,
+ * scaled to a mean of 1 so that traces stay comparable with equal weights.
+ * @param xyz  sections x girth triples, girth fast
+ * @param[out] weights  sections x girth numbers, filled
+ * @return GALV_ERROR_GEOMETRY names a point none of whose cells has an area.
+ */
+GALV_API galv_status galv_grid_weights(size_t sections, size_t girth, const double *xyz,
+                                       double *weights);
+
+/**
  * Samples the shape on npoints points and builds its latent space. Displacements are streamed in
  * blocks; no N x L array exists.
  * @param shape    borrowed for the call

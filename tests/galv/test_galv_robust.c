@@ -1,0 +1,283 @@
+/* Unusual and wrong input. */
+#include "check.h"
+#include "fixture.h"
+
+#include <string.h>
+
+static double grid[3 * POINTS];
+
+static galv_status build(const galv_shape *shape, galv_sampling sampling,
+                         const galv_options *options, galv_model **model)
+{
+    *model = NULL;
+    fixture_grid(grid);
+    return galv_build(shape, POINTS, grid, sampling, options, model);
+}
+
+static void test_one_sample(void)
+{
+    galv_shape *shape = fixture_shape(GALV_RECURSIVE, 0.03);
+    galv_model *model;
+    galv_options options;
+    galv_options_init(&options);
+    for (int method = GALV_METHOD_AUTO; method <= GALV_METHOD_RANDOMISED; method++) {
+        options.method = (galv_method)method;
+        CU_ASSERT_EQUAL_FATAL(build(shape, galv_uniform(1, 1), &options, &model), GALV_OK);
+        CU_ASSERT_EQUAL(galv_model_modes(model), 1);
+        CU_ASSERT_EQUAL(galv_model_spectrum(model), 1);
+        CHECK_RELATIVE(galv_model_eigenvalues(model)[0], galv_model_trace(model), 1e-13);
+        CU_ASSERT_TRUE(isnan(galv_model_confidence(model).retained_error));
+        double x[FUNCTIONS], d[3 * POINTS], u[FUNCTIONS], back[3 * POINTS];
+        galv_uniform_sample(1, 0, FUNCTIONS, galv_shape_lower(shape), galv_shape_upper(shape), x);
+        galv_shape_displace(shape, POINTS, grid, x, d);
+        galv_project(model, d, u);
+        galv_reconstruct(model, u, back);
+        for (size_t i = 0; i < (size_t)3 * POINTS; i++)
+            CHECK_CLOSE(back[i], d[i], 1e-15);
+        CU_ASSERT_EQUAL(galv_backmap(model, shape, u, x, NULL), GALV_OK);
+        galv_model_free(model);
+    }
+    options.method = GALV_METHOD_AUTO;
+    options.centre = true;
+    CU_ASSERT_EQUAL(build(shape, galv_uniform(1, 1), &options, &model), GALV_ERROR_GEOMETRY);
+    CU_ASSERT_PTR_NULL(model);
+    galv_shape_free(shape);
+}
+
+/* The same five samples over and over: rank 5, all of the variance in 5 modes. */
+static void test_duplicates(void)
+{
+    enum { COUNT = 60, DIFFERENT = 5 };
+    galv_shape *shape = fixture_shape(GALV_RECURSIVE, 0.03);
+    double *x = fixture_samples(shape, COUNT, 3);
+    for (size_t r = DIFFERENT; r < COUNT; r++)
+        memcpy(x + r * FUNCTIONS, x + (r % DIFFERENT) * FUNCTIONS, FUNCTIONS * sizeof *x);
+    galv_model *model;
+    galv_options options;
+    galv_options_init(&options);
+    options.variance = 1;
+    for (int method = GALV_METHOD_AUTO; method <= GALV_METHOD_RANDOMISED; method++) {
+        options.method = (galv_method)method;
+        CU_ASSERT_EQUAL_FATAL(build(shape, galv_samples(COUNT, x), &options, &model), GALV_OK);
+        CU_ASSERT_EQUAL(galv_model_modes(model), DIFFERENT);
+        CU_ASSERT_EQUAL(galv_model_spectrum(model), DIFFERENT);
+        CHECK_CLOSE(galv_model_retained(model), 1, 1e-12);
+        galv_model_free(model);
+    }
+    options.centre = true;
+    options.method = GALV_METHOD_AUTO;
+    CU_ASSERT_EQUAL_FATAL(build(shape, galv_samples(COUNT, x), &options, &model), GALV_OK);
+    CU_ASSERT_EQUAL(galv_model_modes(model), DIFFERENT - 1);
+    galv_model_free(model);
+    for (size_t r = 1; r < COUNT; r++)
+        memcpy(x + r * FUNCTIONS, x, FUNCTIONS * sizeof *x);
+    CU_ASSERT_EQUAL(build(shape, galv_samples(COUNT, x), &options, &model), GALV_ERROR_GEOMETRY);
+    free(x);
+    galv_shape_free(shape);
+}
+
+/* d = (1, x p, 0): constant along x, varying along y, nothing along z. */
+static int constant(void *context, size_t npoints, const double *xyz, const double *x, double *d)
+{
+    (void)context;
+    (void)xyz;
+    for (size_t p = 0; p < npoints; p++) {
+        d[3 * p] = 1;
+        d[3 * p + 1] = x[0] * (double)(p + 1);
+        d[3 * p + 2] = 0;
+    }
+    return 0;
+}
+
+static void test_constant_coordinates(void)
+{
+    double lower = -1, upper = 1;
+    galv_shape *shape = NULL;
+    CU_ASSERT_EQUAL_FATAL(galv_shape_callback(1, &lower, &upper, constant, NULL, true, &shape),
+                          GALV_OK);
+    galv_options options;
+    galv_options_init(&options);
+    options.variance = 1;
+    galv_model *model;
+    CU_ASSERT_EQUAL_FATAL(build(shape, galv_uniform(500, 1), &options, &model), GALV_OK);
+    CU_ASSERT_EQUAL(galv_model_modes(model), 2);
+    CU_ASSERT_EQUAL(galv_model_active(model), 2 * POINTS);
+    galv_model_free(model);
+    options.centre = true;
+    CU_ASSERT_EQUAL_FATAL(build(shape, galv_uniform(500, 1), &options, &model), GALV_OK);
+    CU_ASSERT_EQUAL(galv_model_modes(model), 1);
+    CHECK_CLOSE(galv_model_mean(model)[3], 1, 1e-15);
+    double x, u = 0.9 * galv_model_upper(model)[0], residual;
+    CU_ASSERT_EQUAL(galv_backmap(model, shape, &u, &x, &residual), GALV_OK);
+    CHECK_CLOSE(residual, 0, 1e-9);
+    galv_model_free(model);
+    galv_shape_free(shape);
+}
+
+static int sometimes_nan(void *context, size_t npoints, const double *xyz, const double *x,
+                         double *d)
+{
+    constant(NULL, npoints, xyz, x, d);
+    if (x[0] == 1234)
+        d[7] = *(const double *)context;
+    return 0;
+}
+
+static void test_bad_sample_is_named(void)
+{
+    const double bad_values[] = {NAN, INFINITY, 1e200};
+    double lower = -1, upper = 1, bad, x[1000];
+    galv_shape *shape = NULL;
+    CU_ASSERT_EQUAL_FATAL(galv_shape_callback(1, &lower, &upper, sometimes_nan, &bad, true, &shape),
+                          GALV_OK);
+    for (int r = 0; r < 1000; r++)
+        x[r] = r == 777 || r == 801 ? 1234 : r;
+    galv_options options;
+    galv_options_init(&options);
+    galv_model *model;
+    for (int method = GALV_METHOD_COVARIANCE; method <= GALV_METHOD_RANDOMISED; method++)
+        for (int b = 0; b < 3; b++) {
+            bad = bad_values[b];
+            options.method = (galv_method)method;
+            CU_ASSERT_EQUAL(build(shape, galv_samples(1000, x), &options, &model),
+                            GALV_ERROR_NUMERIC);
+            CU_ASSERT_PTR_NOT_NULL(strstr(galv_last_error(), "sample 777"));
+        }
+    double d[3 * POINTS];
+    bad = NAN;
+    CU_ASSERT_EQUAL(galv_shape_displace(shape, POINTS, grid, &x[777], d), GALV_ERROR_NUMERIC);
+    CU_ASSERT_PTR_NOT_NULL(strstr(galv_last_error(), "point 2"));
+    x[3] = NAN;
+    CU_ASSERT_EQUAL(build(shape, galv_samples(1000, x), NULL, &model), GALV_ERROR_ARGUMENT);
+    CU_ASSERT_PTR_NOT_NULL(strstr(galv_last_error(), "sample 3"));
+    galv_shape_free(shape);
+}
+
+static int refuse(void *context, size_t npoints, const double *xyz, const double *x, double *d)
+{
+    constant(context, npoints, xyz, x, d);
+    return x[0] > 0.99 ? 17 : 0;
+}
+
+static void test_callback_refuses(void)
+{
+    double lower = -1, upper = 1;
+    galv_shape *shape = NULL;
+    galv_model *model;
+    CU_ASSERT_EQUAL(galv_shape_callback(1, &lower, &upper, NULL, NULL, false, &shape),
+                    GALV_ERROR_ARGUMENT);
+    CU_ASSERT_EQUAL_FATAL(galv_shape_callback(1, &lower, &upper, refuse, NULL, true, &shape),
+                          GALV_OK);
+    CU_ASSERT_EQUAL(build(shape, galv_uniform(5000, 1), NULL, &model), GALV_ERROR_NUMERIC);
+    CU_ASSERT_PTR_NOT_NULL(strstr(galv_last_error(), "sample "));
+    CU_ASSERT_PTR_NOT_NULL(strstr(galv_last_error(), "17"));
+    galv_shape_free(shape);
+}
+
+static int cancel(void *context, double fraction)
+{
+    double *last = context;
+    CU_ASSERT_TRUE(fraction >= *last && fraction <= 1);
+    *last = fraction;
+    return fraction > 0.6;
+}
+
+static void test_progress_cancels(void)
+{
+    galv_shape *shape = fixture_shape(GALV_RECURSIVE, 0.03);
+    galv_options options;
+    galv_options_init(&options);
+    double last = 0;
+    options.progress = cancel;
+    options.progress_context = &last;
+    galv_model *model;
+    CU_ASSERT_EQUAL(build(shape, galv_uniform(3000, 1), &options, &model), GALV_ERROR_CANCELLED);
+    CU_ASSERT_TRUE(last > 0.6);
+    galv_shape_free(shape);
+}
+
+static void test_wrong_arguments(void)
+{
+    galv_shape *shape = fixture_shape(GALV_RECURSIVE, 0.03), *other = NULL;
+    galv_model *model;
+    galv_options options;
+    galv_options_init(&options);
+    options.variance = 1.5;
+    CU_ASSERT_EQUAL(build(shape, galv_uniform(10, 1), &options, &model), GALV_ERROR_ARGUMENT);
+    options.variance = NAN;
+    CU_ASSERT_EQUAL(build(shape, galv_uniform(10, 1), &options, &model), GALV_ERROR_ARGUMENT);
+    galv_options_init(&options);
+    double weights[POINTS];
+    for (int p = 0; p < POINTS; p++)
+        weights[p] = p == 5 ? -1 : 1;
+    options.weights = weights;
+    CU_ASSERT_EQUAL(build(shape, galv_uniform(10, 1), &options, &model), GALV_ERROR_ARGUMENT);
+    CU_ASSERT_PTR_NOT_NULL(strstr(galv_last_error(), "point 5"));
+    CU_ASSERT_EQUAL(build(shape, galv_uniform(0, 1), NULL, &model), GALV_ERROR_ARGUMENT);
+    CU_ASSERT_EQUAL(galv_build(NULL, POINTS, grid, galv_uniform(3, 1), NULL, &model),
+                    GALV_ERROR_ARGUMENT);
+    CU_ASSERT_EQUAL(galv_build(shape, 0, grid, galv_uniform(3, 1), NULL, &model),
+                    GALV_ERROR_ARGUMENT);
+    CU_ASSERT_EQUAL_FATAL(build(shape, galv_uniform(30, 1), NULL, &model), GALV_OK);
+    double lower = 0, upper = 1, u[FUNCTIONS] = {0}, x[FUNCTIONS], d[3 * POINTS];
+    CU_ASSERT_EQUAL_FATAL(galv_shape_callback(1, &lower, &upper, constant, NULL, true, &other),
+                          GALV_OK);
+    CU_ASSERT_EQUAL(galv_backmap(model, other, u, x, NULL), GALV_ERROR_ARGUMENT);
+    u[0] = NAN;
+    CU_ASSERT_EQUAL(galv_backmap(model, shape, u, x, NULL), GALV_ERROR_ARGUMENT);
+    CU_ASSERT_EQUAL(galv_reconstruct(model, u, d), GALV_ERROR_ARGUMENT);
+    galv_model_free(model);
+    galv_model_free(NULL);
+    galv_shape_free(other);
+    galv_shape_free(shape);
+}
+
+/* Parameters that do nothing: bounds that coincide at 0. */
+static void test_nothing_moves(void)
+{
+    galv_shape *shape = fixture_shape(GALV_RECURSIVE, 0);
+    galv_model *model;
+    CU_ASSERT_EQUAL(build(shape, galv_uniform(50, 1), NULL, &model), GALV_ERROR_GEOMETRY);
+    galv_shape_free(shape);
+}
+
+/* Sample r is a function of the seed and r alone, uniform within its bounds. */
+static void test_uniform_stream(void)
+{
+    enum { COUNT = 20000, N = 3 };
+    const double lower[N] = {0, -2, 5}, upper[N] = {1, 2, 5};
+    double first[N], again[N], longer[N + 2], mean = 0, square = 0, product = 0;
+    const double lower5[N + 2] = {0, -2, 5, 0, 0}, upper5[N + 2] = {1, 2, 5, 1, 1};
+    galv_uniform_sample(9, 4, N, lower, upper, first);
+    galv_uniform_sample(9, 4, N, lower, upper, again);
+    galv_uniform_sample(9, 4, N + 2, lower5, upper5, longer);
+    CU_ASSERT_EQUAL(memcmp(first, again, sizeof first), 0);
+    CU_ASSERT_EQUAL(memcmp(first, longer, sizeof first), 0);
+    galv_uniform_sample(8, 5, N, lower, upper, again);
+    CU_ASSERT_NOT_EQUAL(first[0], again[0]);
+    for (size_t r = 0; r < COUNT; r++) {
+        galv_uniform_sample(123, r, N, lower, upper, first);
+        CU_ASSERT_TRUE(first[0] >= 0 && first[0] < 1 && fabs(first[1]) <= 2 && first[2] == 5);
+        mean += first[0] / COUNT;
+        square += first[0] * first[0] / COUNT;
+        product += (first[0] - 0.5) * first[1] / COUNT;
+    }
+    /* Five standard errors. */
+    CHECK_CLOSE(mean, 0.5, 5 * sqrt(1 / 12.0 / COUNT));
+    CHECK_CLOSE(square, 1 / 3.0, 5 * sqrt(4 / 45.0 / COUNT));
+    CHECK_CLOSE(product, 0, 5 * sqrt(1 / 12.0 * 4 / 3 / COUNT));
+}
+
+static const struct check_case cases[] = {
+    {"one sample", test_one_sample},
+    {"duplicate samples", test_duplicates},
+    {"constant coordinates", test_constant_coordinates},
+    {"the sample that is not finite is named", test_bad_sample_is_named},
+    {"a callback that refuses", test_callback_refuses},
+    {"progress and cancelling", test_progress_cancels},
+    {"wrong arguments", test_wrong_arguments},
+    {"nothing moves", test_nothing_moves},
+    {"the uniform stream", test_uniform_stream},
+};
+
+CHECK_MAIN("galv robustness", cases)

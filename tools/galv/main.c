@@ -1,0 +1,41 @@
+/* galv: latent spaces of hull modifications. */
+#include "cli.h"
+#include "commands.h"
+
+#include <string.h>
+
+static const char help[] =
+    "usage: galv COMMAND [OPTION]...\n"
+    "\n"
+    "Latent spaces of shape modifications.\n"
+    "\n"
+    "  reduce       sample a modification on a hull and find its latent space\n"
+    "\n"
+    "  --help       this text, or with a command its own\n"
+    "  --version    version\n"
+    "\n"
+    "Exit status: 0 success, 1 failure, 2 wrong usage.\n";
+
+static const struct {
+    const char *name, *title;
+    int (*run)(int, char **);
+} commands[] = {
+    {"reduce", "galv reduce", command_reduce},
+};
+
+int main(int argc, char **argv)
+{
+    cli_set_name("galv");
+    if (argc < 2)
+        return cli_usage("a command is missing");
+    if (strcmp(argv[1], "--help") == 0)
+        return cli_print(help);
+    if (strcmp(argv[1], "--version") == 0)
+        return cli_version();
+    for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++)
+        if (strcmp(argv[1], commands[i].name) == 0) {
+            cli_set_name(commands[i].title);
+            return commands[i].run(argc - 1, argv + 1);
+        }
+    return cli_usage("unknown command '%s'", argv[1]);
+}

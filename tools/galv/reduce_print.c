@@ -1,0 +1,92 @@
+#include "cli.h"
+#include "reduce.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+
+static json_t *array(size_t n, const double *values)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < n; i++)
+        json_array_append_new(list, json_real(values[i]));
+    return list;
+}
+
+/* JSON has no NaN: unknown figures are null. */
+static json_t *number(double value)
+{
+    return isfinite(value) ? json_real(value) : json_null();
+}
+
+static const char *method_name(galv_method method)
+{
+    switch (method) {
+    case GALV_METHOD_COVARIANCE:
+        return "covariance";
+    case GALV_METHOD_GRAM:
+        return "gram";
+    case GALV_METHOD_RANDOMISED:
+        return "randomised";
+    default:
+        return "auto";
+    }
+}
+
+int reduce_print_json(const galv_model *model, const struct reduce_options *options, double seconds)
+{
+    size_t spectrum = galv_model_spectrum(model), modes = galv_model_modes(model);
+    galv_confidence confidence = galv_model_confidence(model);
+    json_t *root = json_object();
+    json_object_set_new(root, "samples", json_integer((json_int_t)galv_model_samples(model)));
+    json_object_set_new(root, "elements", json_integer((json_int_t)galv_model_points(model)));
+    json_object_set_new(root, "coordinates",
+                        json_integer((json_int_t)galv_model_coordinates(model)));
+    json_object_set_new(root, "active", json_integer((json_int_t)galv_model_active(model)));
+    json_object_set_new(root, "parameters", json_integer((json_int_t)galv_model_parameters(model)));
+    json_object_set_new(root, "modes", json_integer((json_int_t)modes));
+    json_object_set_new(root, "retained", number(galv_model_retained(model)));
+    json_object_set_new(root, "retained_error", number(confidence.retained_error));
+    json_object_set_new(root, "subspace_angle", number(confidence.angle));
+    json_object_set_new(root, "trace", number(galv_model_trace(model)));
+    json_object_set_new(root, "eigenvalues", array(spectrum, galv_model_eigenvalues(model)));
+    json_object_set_new(root, "residuals", array(spectrum, galv_model_residuals(model)));
+    json_object_set_new(root, "mse", array(spectrum, galv_model_mse(model)));
+    json_object_set_new(root, "latent_lower", array(modes, galv_model_lower(model)));
+    json_object_set_new(root, "latent_upper", array(modes, galv_model_upper(model)));
+    json_object_set_new(root, "centred", json_boolean(options->build.centre));
+    json_object_set_new(root, "weights", json_string(options->area_weights ? "area" : "equal"));
+    json_object_set_new(root, "method", json_string(method_name(galv_model_method(model))));
+    if (options->random)
+        json_object_set_new(root, "seed", json_integer((json_int_t)options->seed));
+    json_object_set_new(root, "seconds", number(seconds));
+    int failed = json_dumpf(root, stdout, JSON_REAL_PRECISION(17) | JSON_INDENT(1));
+    json_decref(root);
+    if (failed || putchar('\n') == EOF || fflush(stdout) == EOF)
+        return cli_fail("standard output cannot be written");
+    return CLI_OK;
+}
+
+int reduce_print_text(const galv_model *model, double seconds)
+{
+    galv_confidence confidence = galv_model_confidence(model);
+    printf("%zu samples of %zu parameters on %zu points, %zu of %zu coordinates move\n",
+           galv_model_samples(model), galv_model_parameters(model), galv_model_points(model),
+           galv_model_active(model), galv_model_coordinates(model));
+    printf("%zu modes retain %.3f %% of the variance %.6g m^2", galv_model_modes(model),
+           100 * galv_model_retained(model), galv_model_trace(model));
+    if (isfinite(confidence.retained_error))
+        printf(" (standard error %.3f %%)\ngreatest angle to the modes of half the samples: %.2f "
+               "degrees",
+               100 * confidence.retained_error, confidence.angle * 180 / 3.14159265358979323846);
+    printf("\n%4s %14s %12s %14s\n", "mode", "eigenvalue", "retained %", "mean sq. error");
+    double sum = 0;
+    for (size_t k = 0; k < galv_model_spectrum(model) && k < galv_model_modes(model) + 5; k++) {
+        sum += galv_model_eigenvalues(model)[k];
+        printf("%4zu %14.6e %12.4f %14.6e%s\n", k + 1, galv_model_eigenvalues(model)[k],
+               100 * sum / galv_model_trace(model), galv_model_mse(model)[k],
+               k + 1 == galv_model_modes(model) ? "  <- kept" : "");
+    }
+    printf("%s method, %.2f s\n", method_name(galv_model_method(model)), seconds);
+    return fflush(stdout) == EOF ? cli_fail("standard output cannot be written") : CLI_OK;
+}
