@@ -29,7 +29,7 @@ static void unit_normals(size_t n, const double *triples, double *normals)
         double length = sqrt(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]),
                scale = sqrt((a[0] * a[0] + a[1] * a[1] + a[2] * a[2]) *
                             (b[0] * b[0] + b[1] * b[1] + b[2] * b[2]));
-        for (int d = 0; d < 3; d++)
+        for (size_t d = 0; d < 3; d++)
             normals[3 * k + d] = length > 1e-9 * scale ? c[d] / length : 0;
     }
 }

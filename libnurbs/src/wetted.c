@@ -2,7 +2,7 @@
  *
  * Along w the knots of the hull are carried over at the mean crossing, along u the hull's own knots
  * are kept; spans of either direction are halved until the spline follows T within a part of the
- * tolerance in the middle of every span. Where the hull may break (u knots of full multiplicity)
+ * tolerance inside every span. Where the hull may break (u knots of full multiplicity)
  * only those lines w = constant break that have a kink there. */
 #include "cut.h"
 #include "error.h"
@@ -111,9 +111,13 @@ static nurbs_status start_w(build *work)
     nurbs_status status =
         knot_list_start(&work->along[1], sections->degree[1], (const double[]){0, 1});
     for (size_t k = (size_t)sections->degree[1] + 1; k < sections->size[1] && status == NURBS_OK;
-         k++)
-        if (t[k] > mean && t[k] - mean >= 0.5 * (t[k + 1] - t[k]))
+         k++) {
+        size_t next = k + 1;
+        while (t[next] == t[k])
+            next++;
+        if (t[k] > mean && t[k] - mean >= 0.5 * (t[next] - t[k]))
             status = knot_list_append(&work->along[1], (t[k] - mean) / (1 - mean));
+    }
     return status;
 }
 
@@ -152,14 +156,28 @@ static double row_error(const knot_list *list, double t, size_t n, const double 
     return sqrt(worst);
 }
 
+/* Where knot interval k is checked, far from the interpolation points: those of odd degrees lie
+ * near the knots, those of even degrees near the middles of the spans. Returns the number of
+ * places. */
+static size_t check_places(const knot_list *list, size_t k, double *places)
+{
+    double length = list->knots[k + 1] - list->knots[k];
+    size_t count = list->degree % 2 ? 1 : 2;
+    if (!(length > 0))
+        return 0;
+    for (size_t c = 0; places && c < count; c++)
+        places[c] = list->knots[k] + length * (count == 1 ? 0.5 : c ? 0.8 : 0.2);
+    return count;
+}
+
 /* One direction: splines through T at its Greville points, on the n lines `across` of the other
- * direction; halves the spans whose middle is off and counts them. */
+ * direction; halves the spans that are off and counts them. */
 static nurbs_status refine_once(build *work, int direction, size_t n, const double *across,
                                 size_t *halved)
 {
     knot_list *list = &work->along[direction];
-    size_t intervals = list->size + (size_t)list->degree, m = 3 * n, count = list->size, spans = 0;
-    double *sites = malloc((count + intervals) * (1 + m) * sizeof *sites);
+    size_t intervals = list->size + (size_t)list->degree, m = 3 * n, count = list->size, checks = 0;
+    double *sites = malloc((count + 2 * intervals) * (1 + m) * sizeof *sites);
     unsigned char *split = calloc(intervals, 1);
     *halved = 0;
     if (!sites || !split) {
@@ -167,29 +185,27 @@ static nurbs_status refine_once(build *work, int direction, size_t n, const doub
         free(split);
         return nurbs_fail(NURBS_ERROR_MEMORY, "no memory to fit %zu sections", count);
     }
-    double *middles = sites + count, *rows = middles + intervals, *points = rows + count * m;
+    double *places = sites + count, *rows = places + 2 * intervals, *points = rows + count * m;
     nurbs_greville(list->degree, count, list->knots, sites);
     for (size_t k = 0; k < intervals; k++)
-        if (list->knots[k + 1] > list->knots[k])
-            middles[spans++] = 0.5 * (list->knots[k] + list->knots[k + 1]);
+        checks += check_places(list, k, places + checks);
     const size_t at[2] = {direction ? n : count, direction ? count : n},
-                 between[2] = {direction ? n : spans, direction ? spans : n};
+                 between[2] = {direction ? n : checks, direction ? checks : n};
     nurbs_status status = sample(
         work, direction, at,
         (const double *const[]){direction ? across : sites, direction ? sites : across}, rows);
     if (status == NURBS_OK)
         status = sample(
             work, direction, between,
-            (const double *const[]){direction ? across : middles, direction ? middles : across},
+            (const double *const[]){direction ? across : places, direction ? places : across},
             points);
     if (status == NURBS_OK)
         status = interpolate_rows(list->degree, count, list->knots, sites, m, rows);
-    for (size_t k = 0, s = 0; k < intervals && status == NURBS_OK; k++)
-        if (list->knots[k + 1] > list->knots[k]) {
-            split[k] = row_error(list, middles[s], n, rows, points + s * m) > work->target;
-            *halved += split[k];
-            s++;
-        }
+    for (size_t k = 0, c = 0; k < intervals && status == NURBS_OK; k++) {
+        for (size_t last = c + check_places(list, k, NULL); c < last; c++)
+            split[k] |= row_error(list, places[c], n, rows, points + c * m) > work->target;
+        *halved += split[k];
+    }
     if (status == NURBS_OK && *halved)
         status = knot_list_halve(list, split, *halved);
     free(sites);

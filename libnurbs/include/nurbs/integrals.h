@@ -22,7 +22,7 @@ typedef struct nurbs_hydrostatics {
     double waterplane_centre; /**< x of its centroid (LCF), m */
     double waterplane_inertia_x,
         waterplane_inertia_y; /**< m^4 about the x axis, and about y through LCF */
-    double beam;              /**< largest breadth at the level, m */
+    double beam;              /**< largest breadth at the level, m (of the body when submerged) */
     double draft;             /**< depth of the deepest point below the level, m */
     double keel_draft;        /**< depth of the keel amidships (x halfway along the waterline), m */
     double x_aft, x_fore;     /**< ends of the waterline, m (of the body when submerged) */

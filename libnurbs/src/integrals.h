@@ -1,0 +1,43 @@
+/* Pieces of the hydrostatics page. */
+#ifndef NURBS_INTEGRALS_INTERNAL_H
+#define NURBS_INTEGRALS_INTERNAL_H
+
+#include <nurbs/integrals.h>
+
+/* Sums over one patch of quantities times its area element dS or its oriented normal n dS =
+ * (Su x Sv) du dv. */
+typedef struct patch_sums {
+    double area;
+    double normal[3];
+    double y_ny, x_y_ny, y_y_ny, z_y_ny;
+    double depth_nz; /* (level - z) n_z */
+} patch_sums;
+
+/* Gauss quadrature with `order` points a span and direction. */
+nurbs_status patch_integrate(const nurbs_surface *surface, double level, size_t order,
+                             patch_sums *sums);
+
+/* Number of non-empty knot spans of a direction. */
+size_t patch_spans(const nurbs_surface *surface, int direction);
+
+/* Integrals along the edges at the level: 2 y dx and its moments. */
+typedef struct waterplane {
+    size_t edges;                                  /* 0: the body does not reach the level */
+    double area, moment_x, inertia_xx, inertia_yy; /* 2y, 2xy, 2y^3/3, 2x^2 y times dx */
+    double beam, aft, fore;
+} waterplane;
+nurbs_status waterplane_integrate(size_t n, const nurbs_surface *const *patches, double level,
+                                  waterplane *plane);
+
+/* Largest value of sign * coordinate (0 x, 1 y, 2 z) over the patches, times sign. */
+nurbs_status extreme_point(size_t n, const nurbs_surface *const *patches, int coordinate,
+                           double sign, double *value);
+
+/* Area of both sides and lowest z of the section x = constant. */
+nurbs_status section_area(size_t n, const nurbs_surface *const *patches, double x, double *area,
+                          double *low);
+/* Largest such area between aft and fore. */
+nurbs_status section_area_largest(size_t n, const nurbs_surface *const *patches, double aft,
+                                  double fore, double *area, double *at);
+
+#endif
