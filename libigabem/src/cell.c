@@ -41,17 +41,19 @@ static int nodes_grow(struct nodes *nodes, size_t needed)
     size_t capacity = nodes->capacity ? nodes->capacity : 1024;
     while (capacity < needed)
         capacity *= 2;
-    size_t per_node = 4 + nodes->side[0] + nodes->side[1];
+    size_t normal = nodes->with_normals ? 3 : 0;
+    size_t per_node = 4 + nodes->side[0] + nodes->side[1] + normal;
     double *all = malloc(capacity * per_node * sizeof *all);
     if (!all)
         return 0;
-    double *old[6] = {nodes->x, nodes->y, nodes->z, nodes->g, nodes->bu, nodes->bv};
-    size_t width[6] = {1, 1, 1, 1, nodes->side[0], nodes->side[1]};
-    double *at = all, *fresh[6];
-    for (int k = 0; k < 6; k++, at += capacity * width[k - 1]) {
+    double *old[7] = {nodes->x, nodes->y, nodes->z, nodes->g, nodes->bu, nodes->bv, nodes->normal};
+    size_t width[7] = {1, 1, 1, 1, nodes->side[0], nodes->side[1], normal};
+    double *at = all, *fresh[7];
+    for (int k = 0; k < 7; k++) {
         fresh[k] = at;
-        if (nodes->n)
+        if (nodes->n && width[k])
             memcpy(at, old[k], nodes->n * width[k] * sizeof *at);
+        at += capacity * width[k];
     }
     free(nodes->x);
     nodes->x = fresh[0];
@@ -60,6 +62,7 @@ static int nodes_grow(struct nodes *nodes, size_t needed)
     nodes->g = fresh[3];
     nodes->bu = fresh[4];
     nodes->bv = fresh[5];
+    nodes->normal = fresh[6];
     nodes->capacity = capacity;
     return 1;
 }
@@ -207,6 +210,14 @@ static void edge_distance(const struct element *element, int along, int end, dou
     }
 }
 
+size_t edge_roots(const struct element *element, int fixed, int end, double x,
+                  double roots[ELEMENT_SIDE])
+{
+    double distance[ELEMENT_SIDE];
+    edge_distance(element, fixed, end, x, distance);
+    return bernstein_roots(element->degree[1 - fixed], distance, 0.0, 1.0, 0, roots, 0);
+}
+
 void domain_whole(const struct element *element, struct domain *domain)
 {
     *domain = (struct domain){.element = element, .across = {0.0, 1.0}, .part = DOMAIN_WHOLE};
@@ -259,7 +270,7 @@ size_t domain_cut(const struct element *element, double x, struct domain pieces[
     size_t count = 1, n = 0;
     for (int end = 0; end < 2; end++) {
         edge_distance(element, along, end, x, edge[end]);
-        count += bernstein_roots(q, edge[end], 0.0, 1.0, 0, stops + count, 0);
+        count += edge_roots(element, along, end, x, stops + count);
     }
     stops[count++] = 1.0;
     qsort(stops, count, sizeof *stops, increasing);
@@ -408,6 +419,30 @@ void cell_extent(const struct domain *domain, const double rect[4], double centr
             longest = fmax(longest, sum);
         }
         half[d] = sqrt(longest);
+    }
+}
+
+void nodes_fold(const struct nodes *nodes, const struct element *element, double *f)
+{
+    size_t m = (size_t)element->degree[0] + 1, n = (size_t)element->degree[1] + 1;
+    for (size_t i = 0; i < nodes->n; i++, f += m * n) {
+        const double *bu = nodes->bu + i * nodes->side[0], *bv = nodes->bv + i * nodes->side[1];
+        double u[ELEMENT_SIDE], v[ELEMENT_SIDE];
+        for (size_t a = 0; a < m; a++) {
+            u[a] = 0.0;
+            for (size_t k = 0; k < m; k++)
+                u[a] += element->extraction[0][a * m + k] * bu[k];
+        }
+        for (size_t b = 0; b < n; b++) {
+            v[b] = 0.0;
+            for (size_t k = 0; k < n; k++)
+                v[b] += element->extraction[1][b * n + k] * bv[k];
+        }
+        for (size_t a = 0; a < m; a++)
+            for (size_t b = 0; b < n; b++) {
+                double w = element->weight ? element->weight[a * element->stride + b] : 1.0;
+                f[a * n + b] = w * u[a] * v[b] * nodes->g[i];
+            }
     }
 }
 

@@ -36,6 +36,11 @@ enum { DOMAIN_PIECES = 4 * ELEMENT_SIDE };
  * along one direction of the element, as it is on a hull. */
 size_t domain_cut(const struct element *element, double x, struct domain pieces[DOMAIN_PIECES]);
 
+/* Parameters in (0,1) where the edge of an element at which local parameter `fixed` is 0 (end 0) or
+ * 1 (end 1) crosses the plane; fills roots (increasing), returns their number. */
+size_t edge_roots(const struct element *element, int fixed, int end, double x,
+                  double roots[ELEMENT_SIDE]);
+
 /* Local parameters of (a, b) and the Jacobian d(s,t)/d(a,b) >= 0. */
 void domain_map(const struct domain *domain, double a, double b, double local[2], double *jacobian);
 
@@ -52,6 +57,8 @@ struct nodes {
     double *x, *y, *z; /* positions, m */
     double *g;         /* weight times area element over the homogeneous weight, m^2 */
     double *bu, *bv;   /* Bernstein polynomials in the two local parameters */
+    int with_normals;  /* set before the first node: fill the next array */
+    double *normal;    /* [n][3] outward unit normals; on a waterline nu_x, length, 0 */
     struct block *block;
     int failed; /* memory ran out: contents incomplete */
 };
@@ -74,6 +81,10 @@ void point_node(const struct element *element, double s, double t, double weight
 /* Centre of a cell and its half lengths along a and b. */
 void cell_extent(const struct domain *domain, const double rect[4], double centre[3],
                  double half[2]);
+
+/* Strength of every node for a unit coefficient of each spline function of its element, all nodes
+ * being on that element: fills f[node][function]. */
+void nodes_fold(const struct nodes *nodes, const struct element *element, double *f);
 
 /* Integrals of `fields` kernels (values k[f * stride + node]) over the blocks against the spline
  * basis, added to rows[f * row_stride + unknown]. */

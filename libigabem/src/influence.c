@@ -42,31 +42,6 @@ static size_t functions(const struct element *element)
     return (size_t)(element->degree[0] + 1) * (size_t)(element->degree[1] + 1);
 }
 
-/* f[node][function]: the node's strength for a unit coefficient of each spline function. */
-static void fold_basis(const struct nodes *nodes, const struct element *element, double *f)
-{
-    size_t m = (size_t)element->degree[0] + 1, n = (size_t)element->degree[1] + 1;
-    for (size_t i = 0; i < nodes->n; i++, f += m * n) {
-        const double *bu = nodes->bu + i * nodes->side[0], *bv = nodes->bv + i * nodes->side[1];
-        double u[ELEMENT_SIDE], v[ELEMENT_SIDE];
-        for (size_t a = 0; a < m; a++) {
-            u[a] = 0.0;
-            for (size_t k = 0; k < m; k++)
-                u[a] += element->extraction[0][a * m + k] * bu[k];
-        }
-        for (size_t b = 0; b < n; b++) {
-            v[b] = 0.0;
-            for (size_t k = 0; k < n; k++)
-                v[b] += element->extraction[1][b * n + k] * bv[k];
-        }
-        for (size_t a = 0; a < m; a++)
-            for (size_t b = 0; b < n; b++) {
-                double w = element->weight ? element->weight[a * element->stride + b] : 1.0;
-                f[a * n + b] = w * u[a] * v[b] * nodes->g[i];
-            }
-    }
-}
-
 static igabem_status fill_regular(struct influence *influence)
 {
     const struct mesh *mesh = influence->mesh;
@@ -95,7 +70,7 @@ static igabem_status fill_regular(struct influence *influence)
             memcpy(rule->x, nodes.x, n * sizeof *at);
             memcpy(rule->y, nodes.y, n * sizeof *at);
             memcpy(rule->z, nodes.z, n * sizeof *at);
-            fold_basis(&nodes, element, rule->f);
+            nodes_fold(&nodes, element, rule->f);
             at += n * (3 + functions(element));
         }
     }

@@ -6,7 +6,7 @@
 #ifndef INFLUENCE_H
 #define INFLUENCE_H
 
-#include "cell.h"
+#include "line.h"
 
 enum { REGULAR_CLASSES = 4, REGULAR_MOST = 6 + ELEMENT_SIDE / 2 };
 
@@ -52,5 +52,14 @@ igabem_status influence_rankine(const struct influence *influence, double *ranki
  * (NULL: all). */
 igabem_status influence_local(const struct influence *influence, double k0, const char *row,
                               double *local);
+
+/* Adds the local part of the waterline sources. */
+igabem_status influence_local_line(const struct influence *influence, const struct line *line,
+                                   double k0, const char *row, double *local);
+
+/* Adds the wave part of surface sources and, unless line is NULL, of waterline sources, with
+ * `filters` cut-off angles (INFINITY: none): wave[f][n][3][n]. */
+igabem_status influence_wave(const struct influence *influence, const struct line *line, double k0,
+                             size_t filters, const double *cutoff, const char *row, double *wave);
 
 #endif

@@ -150,8 +150,50 @@ static void scatter(const struct influence *influence, double k0, int images,
     }
 }
 
-igabem_status influence_local(const struct influence *influence, double k0, const char *row,
-                              double *local)
+/* Both images of the point see the line at the same distance when it lies in the centre plane and
+ * at different ones elsewhere, so each has its own nodes. */
+static igabem_status line_rows(const struct influence *influence, const struct line *line,
+                               double k0, const double image[2][3], int images,
+                               struct local_work *work, double *rows)
+{
+    struct near_rule rule = {
+        .k0 = k0, .tolerance = influence->tolerance, .gauss = &influence->gauss};
+    work->far_elements = work->far_nodes = 0;
+    for (int i = 0; i < images; i++) {
+        nodes_clear(&work->nodes[i]);
+        memcpy(rule.point, image[i], sizeof rule.point);
+        for (size_t s = 0; s < line->n; s++) {
+            double stops[ELEMENT_SIDE + 2];
+            size_t n = line_cut(&line->segment[s], image[i][0], stops);
+            for (size_t k = 0; k + 1 < n; k++)
+                if (stops[k + 1] - stops[k] > 1e-12)
+                    line_near(line, &line->segment[s], stops + k, &rule, &work->nodes[i]);
+        }
+        for (size_t k = 0; k < work->nodes[i].n; k++)
+            work->nodes[i].g[k] /= k0;
+    }
+    size_t total;
+    igabem_status status = evaluate(k0, image, images, work, &total);
+    if (status == IGABEM_OK)
+        scatter(influence, k0, images, work, total, rows);
+    return status;
+}
+
+static igabem_status surface_rows(const struct influence *influence, double k0,
+                                  const double image[2][3], int images, struct local_work *work,
+                                  double *rows)
+{
+    size_t total;
+    collect(influence, k0, image, images, work);
+    igabem_status status = evaluate(k0, image, images, work, &total);
+    if (status == IGABEM_OK)
+        scatter(influence, k0, images, work, total, rows);
+    return status;
+}
+
+/* The rows of surface sources (line NULL) or of the waterline. */
+static igabem_status all_rows(const struct influence *influence, const struct line *line, double k0,
+                              const char *row, double *local)
 {
     const struct density *density = influence->density;
     size_t n = density->n;
@@ -171,11 +213,10 @@ igabem_status influence_local(const struct influence *influence, double k0, cons
                 continue;
             const double *p = density->point + 3 * i;
             double image[2][3] = {{p[0], p[1], -p[2]}, {p[0], -p[1], -p[2]}};
-            size_t total = 0;
-            collect(influence, k0, (const double(*)[3])image, images, &work);
-            status = evaluate(k0, (const double(*)[3])image, images, &work, &total);
-            if (status == IGABEM_OK)
-                scatter(influence, k0, images, &work, total, local + 3 * n * i);
+            const double(*const_image)[3] = (const double(*)[3])image;
+            double *rows = local + 3 * n * i;
+            status = line ? line_rows(influence, line, k0, const_image, images, &work, rows)
+                          : surface_rows(influence, k0, const_image, images, &work, rows);
         }
 #pragma omp critical
         if (status != IGABEM_OK)
@@ -187,4 +228,16 @@ igabem_status influence_local(const struct influence *influence, double k0, cons
     }
     return result == IGABEM_OK ? result
                                : igabem_fail(result, "the local part of the Green function failed");
+}
+
+igabem_status influence_local(const struct influence *influence, double k0, const char *row,
+                              double *local)
+{
+    return all_rows(influence, NULL, k0, row, local);
+}
+
+igabem_status influence_local_line(const struct influence *influence, const struct line *line,
+                                   double k0, const char *row, double *local)
+{
+    return all_rows(influence, line, k0, row, local);
 }

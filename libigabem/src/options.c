@@ -1,0 +1,137 @@
+#include "error.h"
+#include "hull.h"
+
+#include <igabem/solve.h>
+#include <math.h>
+#include <string.h>
+
+static const double transom_stem_factor = 1.44, stem_factor = 2.0;
+
+const char *igabem_formulation_name(igabem_formulation formulation)
+{
+    switch (formulation) {
+#define IGABEM_FORMULATION_NAME(enumerator, name, text)                                            \
+    case enumerator:                                                                               \
+        return name;
+        IGABEM_FORMULATION_LIST(IGABEM_FORMULATION_NAME)
+#undef IGABEM_FORMULATION_NAME
+    }
+    return NULL;
+}
+
+int igabem_formulation_parse(const char *name, igabem_formulation *formulation)
+{
+#define IGABEM_FORMULATION_TEST(enumerator, text, line)                                            \
+    if (strcmp(name, text) == 0) {                                                                 \
+        *formulation = enumerator;                                                                 \
+        return 1;                                                                                  \
+    }
+    IGABEM_FORMULATION_LIST(IGABEM_FORMULATION_TEST)
+#undef IGABEM_FORMULATION_TEST
+    return 0;
+}
+
+void igabem_options_init(igabem_options *options)
+{
+    *options = (igabem_options){.froude = NAN,
+                                .gravity = 9.80665,
+                                .density = 1000.0,
+                                .kernel = IGABEM_KERNEL_KELVIN,
+                                .formulation = IGABEM_AUTOMATIC,
+                                .refine = 1,
+                                .degree = 3,
+                                .line_term = 1,
+                                .cutoff_angle = NAN,
+                                .cutoff_factor = 1.2,
+                                .stem_limit = NAN,
+                                .stern_length = 0.35,
+                                .stern_blend = 0.014,
+                                .spectrum_limit = 20.0,
+                                .tolerance = 1e-5};
+}
+
+static igabem_status check_positive(const char *name, double value)
+{
+    if (value > 0 && isfinite(value))
+        return IGABEM_OK;
+    return igabem_fail(IGABEM_ERROR_ARGUMENT, "%s is %g, expected a positive number", name, value);
+}
+
+static igabem_status check_range(const char *name, double value, double lower, double upper)
+{
+    if (value >= lower && value <= upper)
+        return IGABEM_OK;
+    return igabem_fail(IGABEM_ERROR_ARGUMENT, "%s is %g, expected %g to %g", name, value, lower,
+                       upper);
+}
+
+static igabem_status check(const igabem_options *options)
+{
+    igabem_status status = IGABEM_OK;
+    if (options->kernel < IGABEM_KERNEL_KELVIN || options->kernel > IGABEM_KERNEL_RANKINE)
+        status = igabem_fail(IGABEM_ERROR_ARGUMENT, "unknown kernel %d", (int)options->kernel);
+    else if (!igabem_formulation_name(options->formulation))
+        status =
+            igabem_fail(IGABEM_ERROR_ARGUMENT, "unknown formulation %d", (int)options->formulation);
+    if (status == IGABEM_OK && options->kernel == IGABEM_KERNEL_KELVIN)
+        status = check_positive("Froude number", options->froude);
+    if (status == IGABEM_OK)
+        status = check_positive("gravity", options->gravity);
+    if (status == IGABEM_OK)
+        status = check_positive("density of water", options->density);
+    if (status == IGABEM_OK)
+        status = check_range("refine", options->refine, 1, 1000);
+    if (status == IGABEM_OK)
+        status = check_range("refine_v", options->refine_v, 0, 1000);
+    if (status == IGABEM_OK)
+        status = check_range("degree", options->degree, 1, 9);
+    if (status == IGABEM_OK)
+        status = check_range("tolerance", options->tolerance, 1e-12, 1e-2);
+    if (status == IGABEM_OK)
+        status = check_range("stern_length", options->stern_length, 0.0, 1.0);
+    if (status == IGABEM_OK)
+        status = check_range("stern_blend", options->stern_blend, 0.0, 1.0);
+    if (status == IGABEM_OK)
+        status = check_positive("spectrum_limit", options->spectrum_limit);
+    if (status == IGABEM_OK)
+        status = check_positive("cutoff_factor", options->cutoff_factor);
+    return status;
+}
+
+igabem_status igabem_options_freeze(const igabem_hull *hull, igabem_options *options)
+{
+    igabem_status status = check(options);
+    if (status != IGABEM_OK)
+        return status;
+    if (options->refine_v == 0)
+        options->refine_v = options->refine;
+    if (options->formulation == IGABEM_AUTOMATIC)
+        options->formulation = hull->transom && hull->surface_piercing ? IGABEM_NEUMANN_KELVIN_STERN
+                                                                       : IGABEM_NEUMANN_KELVIN;
+    options->line_term = options->line_term && hull->surface_piercing;
+    if (!hull->surface_piercing) {
+        if (isnan(options->cutoff_angle))
+            options->cutoff_angle = INFINITY;
+        if (isnan(options->stem_limit))
+            options->stem_limit = INFINITY;
+    }
+    if (isnan(options->cutoff_angle) || isnan(options->stem_limit)) {
+        if (options->kernel == IGABEM_KERNEL_KELVIN && !(hull->nu_s > 0))
+            return igabem_fail(
+                IGABEM_ERROR_GEOMETRY,
+                "the waterline has no entrance angle (nu_s = %g): state cutoff_angle "
+                "and stem_limit",
+                hull->nu_s);
+        if (isnan(options->cutoff_angle))
+            options->cutoff_angle = options->cutoff_factor / hull->nu_s;
+        if (isnan(options->stem_limit))
+            options->stem_limit = (hull->transom ? transom_stem_factor : stem_factor) * hull->nu_s;
+    }
+    if (!(options->cutoff_angle > 0))
+        return igabem_fail(IGABEM_ERROR_ARGUMENT, "cutoff_angle is %g, expected > 0 or INFINITY",
+                           options->cutoff_angle);
+    if (!(options->stem_limit > 0))
+        return igabem_fail(IGABEM_ERROR_ARGUMENT, "stem_limit is %g, expected > 0 or INFINITY",
+                           options->stem_limit);
+    return IGABEM_OK;
+}

@@ -1,0 +1,501 @@
+/* The wave part, separable in the wave angle: for a source ahead of the point
+ *     sin(X s) cos(Y t s) e^{Z s^2}  =  sum of products of a factor of the point and one of the
+ * source, s = sqrt(1+t^2). Moments of the basis over pieces wholly ahead are accumulated while
+ * marching from bow to stern; a row is then a product of the factors of its point with that state.
+ * Pieces that straddle x = x_P are cut there and what lies ahead is summed directly. */
+#include "constants.h"
+#include "error.h"
+#include "influence.h"
+#include "quadrature_wave.h"
+#include "spectrum.h"
+#include "wave_math.h"
+
+#include <math.h>
+#include <omp.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* An element or a segment of the waterline. */
+struct source {
+    const struct element *element;
+    const struct line_segment *segment; /* NULL: the element */
+    double box[2];                      /* bounds of x */
+    double *moments;                    /* [function][set][re, im][angle] */
+};
+
+struct wave {
+    const struct influence *influence;
+    const struct line *line;
+    struct spectrum *spectrum;
+    size_t sets;   /* cos(eta) alone, or cos and sin without symmetry */
+    size_t width;  /* 2 sets n: length of a moment */
+    double k0, x0; /* phases are measured from x0 */
+    double extent;
+    struct wave_rule rule;
+    size_t filters;
+    const double *cutoff;
+    double *filter;        /* [filters][angles] */
+    struct source *source; /* by decreasing box[0] */
+    size_t sources;
+    size_t *point; /* wanted rows, by decreasing x */
+    size_t points;
+    double *storage;
+};
+
+/* e^{k0 s^2 z} cos(a - x0 phase) ... of one node for all angles: re, im (= -sin) times the cosine
+ * and sine in eta. */
+WAVE_INLINE void node_waves(const struct wave *wave, size_t angles, double x, double y, double z,
+                            double *out)
+{
+    const double *t = wave->spectrum->t, *root = wave->spectrum->root;
+    double k0 = wave->k0, dx = k0 * (x - wave->x0), ky = k0 * y, kz = k0 * z;
+    size_t n = wave->spectrum->n;
+    double *re = out, *im = out + n, *re2 = out + 2 * n, *im2 = out + 3 * n;
+    int sets = (int)wave->sets;
+    for (size_t j = 0; j < angles; j++) {
+        double sine, cosine, sine_y, cosine_y;
+        double amplitude = wave_exp(fmax(kz * (1.0 + t[j] * t[j]), -600.0));
+        wave_sincos(dx * root[j], &sine, &cosine);
+        wave_sincos(ky * t[j] * root[j], &sine_y, &cosine_y);
+        re[j] = amplitude * cosine * cosine_y;
+        im[j] = -amplitude * sine * cosine_y;
+        if (sets == 2) {
+            re2[j] = amplitude * cosine * sine_y;
+            im2[j] = -amplitude * sine * sine_y;
+        }
+    }
+}
+
+/* Number of leading angles that reach a depth. */
+static size_t angles_at(const struct wave *wave, double depth)
+{
+    double reach = wave_reach(&wave->rule, depth);
+    size_t n = wave->spectrum->n;
+    while (n > 0 && wave->spectrum->t[n - 1] > reach)
+        n--;
+    return n;
+}
+
+WAVE_MULTIVERSION
+static void accumulate(const struct wave *wave, const struct nodes *nodes, size_t functions,
+                       const double *f, double *buffer, double *moments)
+{
+    size_t n = wave->spectrum->n;
+    for (size_t i = 0; i < nodes->n; i++) {
+        size_t angles = angles_at(wave, -nodes->z[i]);
+        node_waves(wave, angles, nodes->x[i], nodes->y[i], nodes->z[i], buffer);
+        for (size_t a = 0; a < functions; a++) {
+            double strength = f[i * functions + a];
+            for (size_t set = 0; set < 2 * wave->sets && strength != 0.0; set++) {
+                double *to = moments + a * wave->width + set * n;
+                const double *from = buffer + set * n;
+                for (size_t j = 0; j < angles; j++)
+                    to[j] += strength * from[j];
+            }
+        }
+    }
+}
+
+static size_t functions(const struct element *element)
+{
+    return (size_t)(element->degree[0] + 1) * (size_t)(element->degree[1] + 1);
+}
+
+struct wave_work {
+    struct nodes nodes;
+    double *buffer; /* one node's waves, or one point's factors */
+    double *f;      /* folded basis, or kernels at nodes */
+    size_t f_capacity;
+};
+
+static int reserve(struct wave_work *work, size_t n)
+{
+    if (n > work->f_capacity) {
+        free(work->f);
+        work->f_capacity = 2 * n;
+        work->f = malloc(work->f_capacity * sizeof *work->f);
+    }
+    return work->f != NULL;
+}
+
+/* Nodes of the part of a source ahead of x (-INFINITY: all of it). */
+static void source_nodes(const struct wave *wave, const struct source *source, double x,
+                         const struct wave_rule *rule, struct nodes *nodes)
+{
+    if (source->segment) {
+        double stops[ELEMENT_SIDE + 2];
+        size_t n = line_cut(source->segment, x, stops), begin = nodes->n;
+        for (size_t k = 0; k + 1 < n; k++) {
+            struct line_point middle;
+            line_evaluate(wave->line, source->segment, 0.5 * (stops[k] + stops[k + 1]), &middle);
+            if (middle.x > x)
+                wave_line_nodes(rule, wave->line, source->segment, stops + k, nodes);
+        }
+        for (size_t i = begin; i < nodes->n; i++)
+            nodes->g[i] /= wave->k0;
+        return;
+    }
+    struct domain pieces[DOMAIN_PIECES];
+    if (x > source->box[0]) {
+        size_t n = domain_cut(source->element, x, pieces);
+        for (size_t k = 0; k < n; k++)
+            if (pieces[k].ahead)
+                wave_nodes(rule, &pieces[k], nodes);
+        return;
+    }
+    domain_whole(source->element, pieces);
+    wave_nodes(rule, pieces, nodes);
+}
+
+static igabem_status source_moments(const struct wave *wave, struct source *source,
+                                    struct wave_work *work)
+{
+    size_t m = functions(source->element);
+    nodes_clear(&work->nodes);
+    source_nodes(wave, source, -INFINITY, &wave->rule, &work->nodes);
+    if (work->nodes.failed || !reserve(work, m * work->nodes.n))
+        return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for wave moments");
+    nodes_fold(&work->nodes, source->element, work->f);
+    memset(source->moments, 0, m * wave->width * sizeof *source->moments);
+    accumulate(wave, &work->nodes, m, work->f, work->buffer, source->moments);
+    return IGABEM_OK;
+}
+
+/* Factors of a point: for every filter, component and set the multipliers of re and im, so that the
+ * velocity is the sum over angles of factor times moment. The order is [filter][component][width].
+ */
+static size_t point_factors(const struct wave *wave, const double p[3], double *factor)
+{
+    const struct spectrum *spectrum = wave->spectrum;
+    size_t n = spectrum->n, width = wave->width, angles = angles_at(wave, -p[2]);
+    double k0 = wave->k0, scale = k0 * k0 / (4.0 * PI) * (wave->sets == 1 ? 16.0 : 8.0);
+    for (size_t j = 0; j < angles; j++) {
+        double t = spectrum->t[j], s = spectrum->root[j], sine, cosine, sine_y, cosine_y;
+        wave_sincos(k0 * (p[0] - wave->x0) * s, &sine, &cosine);
+        wave_sincos(k0 * p[1] * t * s, &sine_y, &cosine_y);
+        double base = scale * spectrum->weight[j] * wave_exp(fmax(k0 * p[2] * s * s, -600.0));
+        for (size_t f = 0; f < wave->filters; f++) {
+            double amplitude = base * wave->filter[f * n + j];
+            double u = amplitude * s, v = -amplitude * t * s, w = amplitude * s * s;
+            double *row = factor + 3 * f * width + j;
+            for (size_t set = 0; set < wave->sets; set++, row += 2 * n) {
+                double even = set == 0 ? cosine_y : sine_y, odd = set == 0 ? sine_y : -cosine_y;
+                row[0] = u * even * cosine;
+                row[n] = -u * even * sine;
+                row[width] = v * odd * sine;
+                row[width + n] = v * odd * cosine;
+                row[2 * width] = w * even * sine;
+                row[2 * width + n] = w * even * cosine;
+            }
+        }
+    }
+    return angles;
+}
+
+/* Rows from the state: rows[filter * filter_stride + component * unknowns + k] += factor . state_k.
+ */
+WAVE_MULTIVERSION
+static void product(const struct wave *wave, const double *factor, size_t angles,
+                    const double *state, size_t first, size_t last, double *rows,
+                    size_t filter_stride)
+{
+    size_t n = wave->spectrum->n, width = wave->width, stride = wave->influence->density->n;
+    for (size_t k = first; k < last; k++)
+        for (size_t f = 0; f < wave->filters; f++) {
+            const double *row = factor + 3 * f * width;
+            double u = 0.0, v = 0.0, w = 0.0;
+            for (size_t set = 0; set < 2 * wave->sets; set++) {
+                const double *from = state + k * width + set * n, *a = row + set * n;
+                double su[8] = {0}, sv[8] = {0}, sw[8] = {0};
+                size_t j = 0;
+                for (; j + 8 <= angles; j += 8)
+                    for (size_t l = 0; l < 8; l++) {
+                        su[l] += a[j + l] * from[j + l];
+                        sv[l] += a[width + j + l] * from[j + l];
+                        sw[l] += a[2 * width + j + l] * from[j + l];
+                    }
+                for (; j < angles; j++) {
+                    su[0] += a[j] * from[j];
+                    sv[0] += a[width + j] * from[j];
+                    sw[0] += a[2 * width + j] * from[j];
+                }
+                for (size_t l = 0; l < 8; l++) {
+                    u += su[l];
+                    v += sv[l];
+                    w += sw[l];
+                }
+            }
+            double *out = rows + f * filter_stride + k;
+            out[0] += u;
+            out[stride] += v;
+            out[2 * stride] += w;
+        }
+}
+
+/* Velocities at the point due to nodes ahead of it: fills k[filter * 3 + component][node]. */
+WAVE_MULTIVERSION
+static void direct_sum(const struct wave *wave, const double *factor, size_t point_angles,
+                       const struct nodes *nodes, double *buffer, double *k)
+{
+    size_t n = wave->spectrum->n, width = wave->width;
+    for (size_t i = 0; i < nodes->n; i++) {
+        size_t angles = point_angles;
+        node_waves(wave, angles, nodes->x[i], nodes->y[i], nodes->z[i], buffer);
+        for (size_t row = 0; row < 3 * wave->filters; row++) {
+            double sum = 0.0;
+            for (size_t set = 0; set < 2 * wave->sets; set++) {
+                const double *a = factor + row * width + set * n, *b = buffer + set * n;
+                double part[8] = {0};
+                size_t j = 0;
+                for (; j + 8 <= angles; j += 8)
+                    for (size_t l = 0; l < 8; l++)
+                        part[l] += a[j + l] * b[j + l];
+                for (; j < angles; j++)
+                    part[0] += a[j] * b[j];
+                for (size_t l = 0; l < 8; l++)
+                    sum += part[l];
+            }
+            k[row * nodes->n + i] = sum;
+        }
+    }
+}
+
+static igabem_status straddling(const struct wave *wave, size_t point, const double *factor,
+                                size_t angles, double slack, struct wave_work *work, double *rows,
+                                size_t filter_stride)
+{
+    const struct density *density = wave->influence->density;
+    const double *p = density->point + 3 * point;
+    struct wave_rule rule = wave->rule;
+    rule.clearance = -p[2];
+    nodes_clear(&work->nodes);
+    for (size_t i = 0; i < wave->sources; i++) {
+        const struct source *source = &wave->source[i];
+        if (source->box[0] < p[0] - slack && source->box[1] > p[0] + slack)
+            source_nodes(wave, source, p[0], &rule, &work->nodes);
+    }
+    size_t n = work->nodes.n;
+    if (n == 0 && !work->nodes.failed)
+        return IGABEM_OK;
+    if (work->nodes.failed || !reserve(work, 3 * wave->filters * n))
+        return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for wave sums");
+    direct_sum(wave, factor, angles, &work->nodes, work->buffer, work->f);
+    for (size_t f = 0; f < wave->filters; f++)
+        nodes_scatter(&work->nodes, 3, work->f + 3 * f * n, n, rows + f * filter_stride,
+                      density->n);
+    return IGABEM_OK;
+}
+
+static void add_moments(const struct wave *wave, const struct source *source, double *state,
+                        size_t range[2])
+{
+    const struct element *element = source->element;
+    size_t n = (size_t)element->degree[1] + 1, m = (size_t)element->degree[0] + 1;
+    for (size_t a = 0; a < m; a++) {
+        size_t first = element->first + a * element->stride;
+        double *to = state + first * wave->width;
+        const double *from = source->moments + a * n * wave->width;
+        for (size_t j = 0; j < n * wave->width; j++)
+            to[j] += from[j];
+    }
+    size_t last = element->first + (m - 1) * element->stride + n;
+    range[0] = element->first < range[0] ? element->first : range[0];
+    range[1] = last > range[1] ? last : range[1];
+}
+
+/* Rows of a block of consecutive points (in order of decreasing x). */
+static igabem_status block_rows(const struct wave *wave, size_t begin, size_t end,
+                                struct wave_work *work, double *state, double *factor, double *rows)
+{
+    const struct density *density = wave->influence->density;
+    size_t next = 0, range[2] = {density->n, 0}, filter_stride = 3 * density->n * density->n;
+    double slack = 1e-9 * wave->extent;
+    memset(state, 0, density->n * wave->width * sizeof *state);
+    for (size_t i = begin; i < end; i++) {
+        size_t point = wave->point[i];
+        const double *p = density->point + 3 * point;
+        while (next < wave->sources && wave->source[next].box[0] >= p[0] - slack)
+            add_moments(wave, &wave->source[next++], state, range);
+        size_t angles = point_factors(wave, p, factor);
+        double *out = rows + 3 * density->n * point;
+        if (range[0] < range[1])
+            product(wave, factor, angles, state, range[0], range[1], out, filter_stride);
+        igabem_status status =
+            straddling(wave, point, factor, angles, slack, work, out, filter_stride);
+        if (status != IGABEM_OK)
+            return status;
+    }
+    return IGABEM_OK;
+}
+
+static int by_decreasing_x(const void *a, const void *b)
+{
+    double d = ((const struct source *)b)->box[0] - ((const struct source *)a)->box[0];
+    return (d > 0) - (d < 0);
+}
+
+struct point_order {
+    double x;
+    size_t index;
+};
+
+static int points_by_decreasing_x(const void *a, const void *b)
+{
+    const struct point_order *p = a, *q = b;
+    double d = q->x - p->x;
+    return d > 0 ? 1 : d < 0 ? -1 : (p->index > q->index) - (p->index < q->index);
+}
+
+static igabem_status sort_points(struct wave *wave, const char *row)
+{
+    const struct density *density = wave->influence->density;
+    struct point_order *order = malloc(density->n * sizeof *order);
+    wave->point = malloc(density->n * sizeof *wave->point);
+    if (!order || !wave->point) {
+        free(order);
+        return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu rows", density->n);
+    }
+    for (size_t i = 0; i < density->n; i++)
+        if (!row || row[i])
+            order[wave->points++] = (struct point_order){density->point[3 * i], i};
+    qsort(order, wave->points, sizeof *order, points_by_decreasing_x);
+    for (size_t i = 0; i < wave->points; i++)
+        wave->point[i] = order[i].index;
+    free(order);
+    return IGABEM_OK;
+}
+
+static igabem_status make_sources(struct wave *wave)
+{
+    const struct mesh *mesh = wave->influence->mesh;
+    size_t n = mesh->n + (wave->line ? wave->line->n : 0), doubles = 0;
+    wave->source = malloc(n * sizeof *wave->source);
+    if (!wave->source)
+        return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu sources", n);
+    for (size_t i = 0; i < n; i++) {
+        struct source *source = &wave->source[i];
+        *source = (struct source){0};
+        if (i < mesh->n) {
+            source->element = &mesh->element[i];
+            source->box[0] = source->element->box[0][0];
+            source->box[1] = source->element->box[1][0];
+        } else {
+            source->segment = &wave->line->segment[i - mesh->n];
+            source->element = source->segment->element;
+            memcpy(source->box, source->segment->box, sizeof source->box);
+        }
+        doubles += functions(source->element) * wave->width;
+    }
+    wave->sources = n;
+    wave->storage = malloc(doubles * sizeof *wave->storage);
+    if (!wave->storage)
+        return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for the moments of %zu sources", n);
+    qsort(wave->source, n, sizeof *wave->source, by_decreasing_x);
+    double *at = wave->storage;
+    for (size_t i = 0; i < n; i++) {
+        wave->source[i].moments = at;
+        at += functions(wave->source[i].element) * wave->width;
+    }
+    return IGABEM_OK;
+}
+
+/* Extent of the sources and the least depths of sources and points. */
+static igabem_status make_spectrum(struct wave *wave)
+{
+    const struct influence *influence = wave->influence;
+    double x[2] = {INFINITY, -INFINITY}, y = 0.0, depth = INFINITY, clearance = INFINITY;
+    for (size_t e = 0; e < influence->mesh->n; e++) {
+        const struct element *element = &influence->mesh->element[e];
+        x[0] = fmin(x[0], element->box[0][0]);
+        x[1] = fmax(x[1], element->box[1][0]);
+        y = fmax(y, fmax(fabs(element->box[0][1]), fabs(element->box[1][1])));
+        depth = fmin(depth, fmax(0.0, -element->box[1][2]));
+    }
+    for (size_t i = 0; i < influence->density->n; i++)
+        clearance = fmin(clearance, -influence->density->point[3 * i + 2]);
+    if (wave->line && wave->line->n)
+        depth = 0.0;
+    double t_max = 0.0;
+    for (size_t f = 0; f < wave->filters; f++)
+        t_max = fmax(t_max, spectrum_limit(wave->k0, wave->cutoff[f], depth + clearance,
+                                           3.0 * wave->rule.tolerance));
+    igabem_status status = spectrum_create(wave->k0, t_max, x[1] - x[0], 2.0 * y, &wave->spectrum);
+    if (status != IGABEM_OK)
+        return status;
+    wave->x0 = 0.5 * (x[0] + x[1]);
+    wave->extent = x[1] - x[0];
+    wave->rule.k0 = wave->k0;
+    wave->rule.t_max = t_max;
+    wave->rule.clearance = clearance;
+    wave->rule.gauss = &influence->gauss;
+    wave->width = 2 * wave->sets * wave->spectrum->n;
+    size_t n = wave->spectrum->n;
+    wave->filter = malloc(wave->filters * n * sizeof *wave->filter);
+    if (!wave->filter)
+        return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for the filter");
+    for (size_t f = 0; f < wave->filters; f++)
+        for (size_t j = 0; j < n; j++)
+            wave->filter[f * n + j] = spectrum_filter(wave->spectrum->t[j], wave->cutoff[f]);
+    return IGABEM_OK;
+}
+
+static igabem_status march(const struct wave *wave, int threads, double *rows)
+{
+    const struct density *density = wave->influence->density;
+    size_t blocks = 4 * (size_t)threads;
+    igabem_status result = IGABEM_OK;
+#pragma omp parallel num_threads(threads)
+    {
+        struct wave_work work = {0};
+        nodes_init(&work.nodes, wave->influence->mesh);
+        work.buffer = malloc(wave->width * sizeof *work.buffer);
+        double *state = malloc(density->n * wave->width * sizeof *state);
+        double *factor = malloc(3 * wave->filters * wave->width * sizeof *factor);
+        igabem_status status = IGABEM_OK;
+        if (!work.buffer || !state || !factor)
+            status = igabem_fail(IGABEM_ERROR_MEMORY, "no memory for wave sums");
+#pragma omp for schedule(dynamic, 8)
+        for (size_t i = 0; i < wave->sources; i++)
+            if (status == IGABEM_OK)
+                status = source_moments(wave, &wave->source[i], &work);
+#pragma omp for schedule(dynamic, 1)
+        for (size_t b = 0; b < blocks; b++)
+            if (status == IGABEM_OK)
+                status = block_rows(wave, wave->points * b / blocks,
+                                    wave->points * (b + 1) / blocks, &work, state, factor, rows);
+#pragma omp critical
+        if (status != IGABEM_OK)
+            result = status;
+        nodes_free(&work.nodes);
+        free(work.buffer);
+        free(work.f);
+        free(state);
+        free(factor);
+    }
+    return result == IGABEM_OK ? result : igabem_fail(result, "no memory for the wave part");
+}
+
+igabem_status influence_wave(const struct influence *influence, const struct line *line, double k0,
+                             size_t filters, const double *cutoff, const char *row, double *rows)
+{
+    struct wave wave = {.influence = influence,
+                        .line = line && line->n ? line : NULL,
+                        .sets = influence->density->symmetric ? 1 : 2,
+                        .k0 = k0,
+                        .filters = filters,
+                        .cutoff = cutoff};
+    wave.rule.tolerance = influence->tolerance;
+    igabem_status status = make_spectrum(&wave);
+    if (status == IGABEM_OK)
+        status = make_sources(&wave);
+    if (status == IGABEM_OK)
+        status = sort_points(&wave, row);
+    if (status == IGABEM_OK)
+        status = march(&wave, influence->threads, rows);
+    spectrum_free(wave.spectrum);
+    free(wave.filter);
+    free(wave.source);
+    free(wave.storage);
+    free(wave.point);
+    return status;
+}
