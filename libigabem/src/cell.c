@@ -356,8 +356,13 @@ void cell_nodes(const struct domain *domain, const double rect[4], const int n[2
             nodes->x[at] = point[0];
             nodes->y[at] = point[1];
             nodes->z[at] = point[2];
-            nodes->g[at] =
-                jacobian * gauss->weight[n[0]][i] * inverse * sqrt(ax * ax + ay * ay + az * az);
+            double size = sqrt(ax * ax + ay * ay + az * az);
+            nodes->g[at] = jacobian * gauss->weight[n[0]][i] * inverse * size;
+            if (nodes->with_normals) {
+                double turn = (along == 0 ? element->sign : -element->sign) / size;
+                const double normal[3] = {turn * ax, turn * ay, turn * az};
+                memcpy(nodes->normal + 3 * at, normal, sizeof normal);
+            }
             memcpy(basis_across + at * side_across, bern, ((size_t)q + 1) * sizeof *bern);
         }
     }
