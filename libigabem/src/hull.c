@@ -2,6 +2,8 @@
 
 #include "error.h"
 
+#include <nurbs/modify.h>
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -42,17 +44,42 @@ static void halve(nurbs_hydrostatics *h)
     h->section_area_max /= 2;
 }
 
+/* The patch on the side y >= 0. Creates *side. */
+static igabem_status to_port(const struct igabem_hull *hull, size_t p, nurbs_surface **side)
+{
+    static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    static const double mirror[9] = {1, 0, 0, 0, -1, 0, 0, 0, 1};
+    const double none[3] = {0, 0, 0}, tolerance = 1e-6 * hull->extent;
+    const double *box = hull->patches[p].side;
+    if (box[0] < -tolerance && box[1] > tolerance)
+        return igabem_fail(IGABEM_ERROR_GEOMETRY,
+                           "patch %zu runs from y = %.6g to %.6g m: a body given whole must be "
+                           "divided at its centre plane (or given as a half, y >= 0)",
+                           p, box[0], box[1]);
+    const double *matrix = box[0] < -tolerance ? mirror : identity;
+    nurbs_status status = nurbs_surface_transform(hull->patches[p].surface, matrix, none, side);
+    return status ? hull_nurbs_fail(status, "mirroring a patch") : IGABEM_OK;
+}
+
 static igabem_status find_hydrostatics(struct igabem_hull *hull)
 {
-    const nurbs_surface **oriented = calloc(hull->n, sizeof(const nurbs_surface *));
-    if (!oriented)
+    nurbs_surface **half = calloc(hull->n, sizeof *half);
+    igabem_status status = IGABEM_OK;
+    if (!half)
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu patches", hull->n);
+    for (size_t p = 0; !status && p < hull->n; p++)
+        status = to_port(hull, p, &half[p]);
+    if (!status) {
+        nurbs_status computed = nurbs_hydrostatics_compute(
+            hull->n, (const nurbs_surface *const *)half, 0.0, &hull->hydrostatics);
+        if (computed)
+            status = hull_nurbs_fail(computed, "hydrostatics");
+    }
     for (size_t p = 0; p < hull->n; p++)
-        oriented[p] = hull->patches[p].surface;
-    nurbs_status status = nurbs_hydrostatics_compute(hull->n, oriented, 0.0, &hull->hydrostatics);
-    free(oriented);
+        nurbs_surface_free(half[p]);
+    free(half);
     if (status)
-        return hull_nurbs_fail(status, "hydrostatics");
+        return status;
     if (!hull->symmetric)
         halve(&hull->hydrostatics);
     if (!(hull->hydrostatics.volume > 0))
@@ -67,9 +94,11 @@ static igabem_status analyse(struct igabem_hull *hull)
 {
     igabem_status status = hull_orient(hull);
     if (!status)
+        status = hull_check(hull);
+    if (!status)
         status = hull_classify_edges(hull);
     if (!status)
-        status = hull_check(hull);
+        status = hull_check_submergence(hull);
     if (!status)
         status = find_hydrostatics(hull);
     if (!status)

@@ -20,6 +20,7 @@ struct hull_patch {
     nurbs_surface *surface; /* owned */
     double domain[2][2];    /* first and last knot of u and of v */
     double sign;            /* outward normal: sign * Su x Sv, sign = +-1 */
+    double side[2];         /* least and largest y of the samples, m */
     enum hull_edge edge[HULL_EDGES];
 };
 
@@ -53,8 +54,9 @@ igabem_status hull_nurbs_fail(nurbs_status status, const char *what);
 
 /* The steps of igabem_hull_create, in order; each names patch and place when it refuses. */
 igabem_status hull_orient(struct igabem_hull *hull);
+igabem_status hull_check(struct igabem_hull *hull);
 igabem_status hull_classify_edges(struct igabem_hull *hull);
-igabem_status hull_check(const struct igabem_hull *hull);
+igabem_status hull_check_submergence(const struct igabem_hull *hull);
 igabem_status hull_waterline_angle(const struct igabem_hull *hull, double *nu_s);
 
 #endif

@@ -53,11 +53,6 @@ static igabem_status check_positions(const struct igabem_hull *hull, size_t p, s
                                "patch %zu: (%.6g, %.6g, %.6g) at u = %.6g, v = %.6g lies across "
                                "the centre plane, expected y >= 0 on a half hull",
                                p, s[0], s[1], s[2], at_u, at_v);
-        if (!hull->surface_piercing && s[2] > -SUBMERGENCE * hull->extent)
-            return igabem_fail(IGABEM_ERROR_GEOMETRY,
-                               "patch %zu: (%.6g, %.6g, %.6g) at u = %.6g, v = %.6g comes within "
-                               "%.3g m of the still water but no edge lies on it",
-                               p, s[0], s[1], s[2], at_u, at_v, -s[2]);
     }
     return IGABEM_OK;
 }
@@ -100,9 +95,25 @@ static igabem_status check_fold(const struct igabem_hull *hull, size_t p)
                        uv[0], uv[1], at[0], at[1], at[2]);
 }
 
-static igabem_status check_patch(const struct igabem_hull *hull, size_t p)
+/* Bounds of hull and patch, from the samples. */
+static void widen(struct igabem_hull *hull, struct hull_patch *patch, size_t n,
+                  const double *triples)
 {
-    const struct hull_patch *patch = &hull->patches[p];
+    patch->side[0] = INFINITY;
+    patch->side[1] = -INFINITY;
+    for (size_t i = 0; i < n; i++)
+        for (int k = 0; k < 3; k++) {
+            double at = triples[9 * i + (size_t)k];
+            hull->lower[k] = fmin(hull->lower[k], at);
+            hull->upper[k] = fmax(hull->upper[k], at);
+            patch->side[0] = k == 1 ? fmin(patch->side[0], at) : patch->side[0];
+            patch->side[1] = k == 1 ? fmax(patch->side[1], at) : patch->side[1];
+        }
+}
+
+static igabem_status check_patch(struct igabem_hull *hull, size_t p)
+{
+    struct hull_patch *patch = &hull->patches[p];
     double *u = NULL, *v = NULL, *triples = NULL;
     size_t nu = sample_points(patch, 0, &u), nv = sample_points(patch, 1, &v);
     igabem_status status = IGABEM_OK;
@@ -116,6 +127,8 @@ static igabem_status check_patch(const struct igabem_hull *hull, size_t p)
             status = hull_nurbs_fail(evaluated, "checking a patch");
     }
     if (!status)
+        widen(hull, patch, nu * nv, triples);
+    if (!status)
         status = check_positions(hull, p, nu, u, nv, v, triples);
     if (!status)
         status = check_normals(hull, p, nu, u, nv, v, triples);
@@ -127,12 +140,22 @@ static igabem_status check_patch(const struct igabem_hull *hull, size_t p)
     return status;
 }
 
-igabem_status hull_check(const struct igabem_hull *hull)
+igabem_status hull_check(struct igabem_hull *hull)
 {
     for (size_t p = 0; p < hull->n; p++) {
         igabem_status status = check_patch(hull, p);
         if (status)
             return status;
     }
+    return IGABEM_OK;
+}
+
+igabem_status hull_check_submergence(const struct igabem_hull *hull)
+{
+    if (!hull->surface_piercing && hull->upper[2] > -SUBMERGENCE * hull->extent)
+        return igabem_fail(IGABEM_ERROR_GEOMETRY,
+                           "the body comes within %.3g m of the still water but no edge lies on "
+                           "it, expected an edge in z = 0 or a depth of at least %.3g m",
+                           fmax(0.0, -hull->upper[2]), SUBMERGENCE * hull->extent);
     return IGABEM_OK;
 }

@@ -47,11 +47,13 @@ static igabem_status patch_flux(const struct hull_patch *patch, const double cen
 {
     size_t nu, nv;
     double *u = NULL, *wu = NULL, *v = NULL, *wv = NULL, *out = NULL;
-    igabem_status status = igabem_fail(IGABEM_ERROR_MEMORY, "no memory to sample a patch");
+    igabem_status status = IGABEM_OK;
     if (!span_rule(patch, 0, ORIENT_GAUSS, &nu, &u, &wu) ||
         !span_rule(patch, 1, ORIENT_GAUSS, &nv, &v, &wv) ||
-        !(out = malloc(nu * nv * 9 * sizeof *out)))
+        !(out = malloc(nu * nv * 9 * sizeof *out))) {
+        status = igabem_fail(IGABEM_ERROR_MEMORY, "no memory to sample a patch");
         goto done;
+    }
     nurbs_status evaluated = nurbs_surface_eval_grid(patch->surface, 1, nu, u, nv, v, out);
     if (evaluated) {
         status = hull_nurbs_fail(evaluated, "sampling a patch");
@@ -68,7 +70,6 @@ static igabem_status patch_flux(const struct hull_patch *patch, const double cen
                 upper[k] = fmax(upper[k], s[k]);
             }
         }
-    status = IGABEM_OK;
 done:
     free(u);
     free(wu);

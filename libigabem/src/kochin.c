@@ -1,0 +1,84 @@
+/* The Kochin function of a solution and the wave resistance R = (rho k0^2 / 2 pi) Int |H|^2
+ * sqrt(1+t^2) dt, t over both signs (docs/theory.md, section 6). */
+#include "kochin.h"
+
+#include "amplitude.h"
+#include "error.h"
+#include "radiation.h"
+
+#include <math.h>
+
+static const double PI = 3.14159265358979323846;
+
+/* What turns the resistance integral into C_w. */
+static double coefficient(const igabem_solution *solution)
+{
+    double area = solution->info.hydrostatics.wetted_area, speed = solution->speed;
+    return solution->k0 * solution->k0 / (PI * speed * speed * area);
+}
+
+static igabem_status resistance(const igabem_solution *solution, enum radiation_cutoff cutoff,
+                                double t_break, double *cw, double *beyond)
+{
+    struct sources *sources;
+    struct amplitude_sum sum;
+    double limit = radiation_limit(solution), length, beam;
+    igabem_status status = radiation_sources(solution, cutoff, limit, &sources);
+    if (status)
+        return status;
+    radiation_extent(solution, &length, &beam);
+    status = amplitude_integrate(sources, solution->k0, length, beam, limit, t_break, &sum);
+    sources_free(sources);
+    if (status)
+        return status;
+    *cw = coefficient(solution) * sum.total;
+    *beyond = sum.total > 0 ? sum.beyond / sum.total : 0.0;
+    return IGABEM_OK;
+}
+
+igabem_status kochin_resistance(const igabem_solution *solution, struct kochin_resistance *result)
+{
+    *result = (struct kochin_resistance){NAN, NAN, NAN, NAN};
+    if (!solution->waves)
+        return IGABEM_OK;
+    double ignored;
+    igabem_status status =
+        resistance(solution, RADIATION_AS_SOLVED, radiation_cutoff_angle(solution), &result->cw,
+                   &result->share_beyond_cutoff);
+    if (!status && solution->sigma_lower)
+        status = resistance(solution, RADIATION_LOWER, 0.0, &result->cw_lower, &ignored);
+    if (!status && solution->sigma_upper)
+        status = resistance(solution, RADIATION_UPPER, 0.0, &result->cw_upper, &ignored);
+    return status;
+}
+
+igabem_status igabem_kochin(const igabem_solution *solution, size_t n, const double *t, double *h,
+                            double *dcw)
+{
+    if (!solution || (n && (!t || !h)))
+        return igabem_fail(IGABEM_ERROR_ARGUMENT, "NULL argument of igabem_kochin");
+    if (!solution->waves)
+        return igabem_fail(IGABEM_ERROR_ARGUMENT,
+                           "this solution has no free surface, expected the Kelvin kernel");
+    double largest = 0.0;
+    for (size_t i = 0; i < n; i++) {
+        if (!isfinite(t[i]))
+            return igabem_fail(IGABEM_ERROR_ARGUMENT, "wave angle %zu is %g, expected a number", i,
+                               t[i]);
+        largest = fmax(largest, fabs(t[i]));
+    }
+    struct sources *sources;
+    igabem_status status = radiation_sources(solution, RADIATION_AS_SOLVED, largest, &sources);
+    if (status)
+        return status;
+    double scale = coefficient(solution);
+#pragma omp parallel for schedule(dynamic, 8)
+    for (size_t i = 0; i < n; i++) {
+        double *hi = h + 2 * i;
+        amplitude(sources, solution->k0, t[i], hi);
+        if (dcw)
+            dcw[i] = scale * (hi[0] * hi[0] + hi[1] * hi[1]) * sqrt(1.0 + t[i] * t[i]);
+    }
+    sources_free(sources);
+    return IGABEM_OK;
+}
