@@ -2,7 +2,7 @@
 #ifndef BAYESOPT_CLONES_H
 #define BAYESOPT_CLONES_H
 
-#if defined(__x86_64__) && defined(__linux__) && defined(__GNUC__) && !defined(__clang__) &&        \
+#if defined(__x86_64__) && defined(__linux__) && defined(__GNUC__) && !defined(__clang__) &&       \
     !defined(ISOHULL_NO_MULTIVERSION)
 #define BAYESOPT_CLONES __attribute__((target_clones("avx512f", "avx2", "default")))
 #else

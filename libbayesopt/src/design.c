@@ -111,7 +111,8 @@ static void swap(struct anneal *a, size_t r, size_t s, size_t j)
 }
 
 /* Metropolis moves that exchange one variable of two points: the one-dimensional strata stay
- * occupied while the energy sum 1/dist^power falls. Morris and Mitchell, J. Stat. Plann. Inf. 43 (1995). */
+ * occupied while the energy sum 1/dist^power falls. Morris and Mitchell, J. Stat. Plann. Inf. 43
+ * (1995). */
 bool design_anneal(size_t n, size_t d, const bayesopt_design_options *options,
                    struct random_stream *stream, double *x)
 {
@@ -148,9 +149,9 @@ static bayesopt_status check(bayesopt_design_kind kind, size_t n, size_t d,
                              const bayesopt_design_options *o)
 {
     if (!n || !d || n > 1000000 || d > 1000)
-        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
-                             "design of %zu points in %zu variables: expected 1 to 1000000 and 1 to 1000",
-                             n, d);
+        return bayesopt_fail(
+            BAYESOPT_ERROR_ARGUMENT,
+            "design of %zu points in %zu variables: expected 1 to 1000000 and 1 to 1000", n, d);
     if ((unsigned)kind > BAYESOPT_DESIGN_STLBO)
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "design kind %d is not known", (int)kind);
     if (!(o->power > 0) || !(o->latin_weight >= 0))
@@ -161,13 +162,14 @@ static bayesopt_status check(bayesopt_design_kind kind, size_t n, size_t d,
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "design: %zu constraints without a function",
                              o->n_constraints);
     if (o->n_existing && !o->existing)
-        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "design: %zu existing points without coordinates",
-                             o->n_existing);
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
+                             "design: %zu existing points without coordinates", o->n_existing);
     for (size_t i = 0; i < o->n_existing * d; i++)
         if (!(o->existing[i] >= 0 && o->existing[i] <= 1))
-            return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
-                                 "design: variable %zu of existing point %zu is %g, expected 0 to 1",
-                                 i % d, i / d, o->existing[i]);
+            return bayesopt_fail(
+                BAYESOPT_ERROR_ARGUMENT,
+                "design: variable %zu of existing point %zu is %g, expected 0 to 1", i % d, i / d,
+                o->existing[i]);
     return BAYESOPT_OK;
 }
 

@@ -6,8 +6,8 @@
 #include "design_internal.h"
 #include "error.h"
 
-/* Cost of one point beside the others: its share of the energy plus, weighted, how many others sit in
- * the same one-dimensional strata (which an energy alone would let pile up on the boundary). */
+/* Cost of one point beside the others: its share of the energy plus, weighted, how many others sit
+ * in the same one-dimensional strata (which an energy alone would let pile up on the boundary). */
 static double point_cost(size_t n, size_t d, const bayesopt_design_options *o, const double *x,
                          size_t self, const double *at, double unit)
 {

@@ -47,20 +47,23 @@ static bayesopt_status check_options(size_t d, const bayesopt_gp_options *o)
 {
     if (d < 1 || d > 1000)
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "gp: %zu variables, expected 1 to 1000", d);
-    if ((unsigned)o->kernel > BAYESOPT_KERNEL_MATERN52 || (unsigned)o->scales > BAYESOPT_SCALES_AUTO ||
-        (unsigned)o->mean > BAYESOPT_MEAN_LINEAR || (unsigned)o->noise > BAYESOPT_NOISE_LEARNED ||
+    if ((unsigned)o->kernel > BAYESOPT_KERNEL_MATERN52 ||
+        (unsigned)o->scales > BAYESOPT_SCALES_AUTO || (unsigned)o->mean > BAYESOPT_MEAN_LINEAR ||
+        (unsigned)o->noise > BAYESOPT_NOISE_LEARNED ||
         (unsigned)o->transform > BAYESOPT_TRANSFORM_AUTO ||
         (unsigned)o->choice > BAYESOPT_CHOICE_LOO)
-        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
-                             "gp: an option is outside its list (kernel %d, scales %d, mean %d, noise "
-                             "%d, transform %d, choice %d)",
-                             (int)o->kernel, (int)o->scales, (int)o->mean, (int)o->noise,
-                             (int)o->transform, (int)o->choice);
+        return bayesopt_fail(
+            BAYESOPT_ERROR_ARGUMENT,
+            "gp: an option is outside its list (kernel %d, scales %d, mean %d, noise "
+            "%d, transform %d, choice %d)",
+            (int)o->kernel, (int)o->scales, (int)o->mean, (int)o->noise, (int)o->transform,
+            (int)o->choice);
     if (!isfinite(o->prior_shift) || !(o->prior_common > 0) || o->prior_variance <= 0)
-        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
-                             "gp: prior shift %g, common variance %g, variance %g: expected finite, "
-                             "positive, positive or NAN",
-                             o->prior_shift, o->prior_common, o->prior_variance);
+        return bayesopt_fail(
+            BAYESOPT_ERROR_ARGUMENT,
+            "gp: prior shift %g, common variance %g, variance %g: expected finite, "
+            "positive, positive or NAN",
+            o->prior_shift, o->prior_common, o->prior_variance);
     if (!o->starts || !o->evaluations)
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
                              "gp: %zu starts of %zu evaluations, expected at least one of each",
@@ -117,8 +120,8 @@ void bayesopt_gp_free(bayesopt_gp *gp)
     if (!gp)
         return;
     transform_free(&gp->transform);
-    double *arrays[] = {gp->lengthscale, gp->gram,   gp->beta,  gp->x,      gp->y,    gp->variance,
-                        gp->scaled,      gp->t,      gp->alpha, gp->factor, gp->solved, gp->basis};
+    double *arrays[] = {gp->lengthscale, gp->gram, gp->beta,  gp->x,      gp->y,      gp->variance,
+                        gp->scaled,      gp->t,    gp->alpha, gp->factor, gp->solved, gp->basis};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         free(arrays[i]);
     free(gp->group);
@@ -137,12 +140,13 @@ bayesopt_status gp_reserve(struct bayesopt_gp *gp, size_t n)
 {
     if (n <= gp->capacity)
         return BAYESOPT_OK;
-    /* Rows keep their length while points are appended, so grow in steps; a multiple of 8 keeps rows
-     * on cache lines. */
+    /* Rows keep their length while points are appended, so grow in steps; a multiple of 8 keeps
+     * rows on cache lines. */
     size_t capacity = (n + n / 8 + 8) / 8 * 8, d = gp->d, old = gp->capacity;
-    bool ok = grow(&gp->x, capacity * d) && grow(&gp->y, capacity) && grow(&gp->variance, capacity) &&
-              grow(&gp->t, capacity) && grow(&gp->alpha, capacity) &&
-              grow(&gp->solved, capacity * (d + 1)) && grow(&gp->basis, capacity * (d + 1));
+    bool ok = grow(&gp->x, capacity * d) && grow(&gp->y, capacity) &&
+              grow(&gp->variance, capacity) && grow(&gp->t, capacity) &&
+              grow(&gp->alpha, capacity) && grow(&gp->solved, capacity * (d + 1)) &&
+              grow(&gp->basis, capacity * (d + 1));
     double *factor = ok ? malloc(capacity * capacity * sizeof *factor) : NULL;
     double *scaled = ok ? malloc(capacity * d * sizeof *scaled) : NULL;
     if (!factor || !scaled) {
@@ -171,8 +175,8 @@ static bayesopt_status check_data(const bayesopt_gp *gp, size_t n, const double 
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "gp: known noise without variances");
     for (size_t i = 0; i < n; i++) {
         if (!isfinite(y[i]))
-            return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "gp: output %zu is %g, expected finite", i,
-                                 y[i]);
+            return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "gp: output %zu is %g, expected finite",
+                                 i, y[i]);
         if (variance && !(variance[i] >= 0 && isfinite(variance[i])))
             return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
                                  "gp: variance %zu is %g, expected finite and not negative", i,
@@ -278,8 +282,8 @@ static bool condition_mean(struct bayesopt_gp *gp)
         for (size_t i = 0; i < n; i++)
             residual[i] -= cblas_ddot((int)p, gp->solved + i * p, 1, gp->beta, 1);
     }
-    gp->log_likelihood = -0.5 * cblas_ddot((int)n, residual, 1, residual, 1) - logs -
-                         0.5 * (double)n * log_2pi;
+    gp->log_likelihood =
+        -0.5 * cblas_ddot((int)n, residual, 1, residual, 1) - logs - 0.5 * (double)n * log_2pi;
     matrix_backward(n, gp->factor, ld, residual);
     return isfinite(gp->log_likelihood);
 }
@@ -310,12 +314,14 @@ static void choose_basis(struct bayesopt_gp *gp)
 }
 
 /* One rung of the ladder after the other until K + jitter I has a factor. */
-static bool factorise(struct bayesopt_gp *gp, double signal, double noise, double largest, double *w)
+static bool factorise(struct bayesopt_gp *gp, double signal, double noise, double largest,
+                      double *w)
 {
     double diagonal = signal;
     for (size_t i = 0; i < gp->n; i++)
         diagonal += gp_noise(gp, i, noise) / (double)gp->n;
-    for (double relative = 0; relative <= largest; relative = relative > 0 ? 10 * relative : 1e-10) {
+    for (double relative = 0; relative <= largest;
+         relative = relative > 0 ? 10 * relative : 1e-10) {
         gp->jitter = relative * diagonal;
         gp_covariance(gp, signal, gp->factor, relative > 0 ? NULL : w);
         for (size_t i = 0; i < gp->n; i++)
@@ -404,7 +410,8 @@ bool gp_likelihood(struct bayesopt_gp *gp, const struct gp_theta *theta, struct 
     return true;
 }
 
-bayesopt_status bayesopt_gp_set_parameters(bayesopt_gp *gp, const bayesopt_gp_parameters *parameters)
+bayesopt_status bayesopt_gp_set_parameters(bayesopt_gp *gp,
+                                           const bayesopt_gp_parameters *parameters)
 {
     for (size_t j = 0; j < gp->d; j++)
         if (!(parameters->lengthscale[j] > 0 && isfinite(parameters->lengthscale[j])))
@@ -413,9 +420,10 @@ bayesopt_status bayesopt_gp_set_parameters(bayesopt_gp *gp, const bayesopt_gp_pa
                                  parameters->lengthscale[j]);
     if (!(parameters->signal > 0 && isfinite(parameters->signal)) ||
         !(parameters->noise >= 0 && isfinite(parameters->noise)) || !isfinite(parameters->mean))
-        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
-                             "gp: signal %g, noise %g, mean %g: expected positive, not negative, finite",
-                             parameters->signal, parameters->noise, parameters->mean);
+        return bayesopt_fail(
+            BAYESOPT_ERROR_ARGUMENT,
+            "gp: signal %g, noise %g, mean %g: expected positive, not negative, finite",
+            parameters->signal, parameters->noise, parameters->mean);
     memcpy(gp->lengthscale, parameters->lengthscale, gp->d * sizeof *gp->lengthscale);
     gp->signal = parameters->signal;
     gp->noise = parameters->noise;
@@ -423,10 +431,11 @@ bayesopt_status bayesopt_gp_set_parameters(bayesopt_gp *gp, const bayesopt_gp_pa
     gp->has_parameters = true;
     transform_free(&gp->transform);
     if (!gp_condition(gp))
-        return bayesopt_fail(BAYESOPT_ERROR_NUMERIC,
-                             "gp: the covariance of %zu points is not positive definite with a jitter "
-                             "of 1e-4",
-                             gp->n);
+        return bayesopt_fail(
+            BAYESOPT_ERROR_NUMERIC,
+            "gp: the covariance of %zu points is not positive definite with a jitter "
+            "of 1e-4",
+            gp->n);
     gp->log_posterior = gp->log_likelihood;
     return BAYESOPT_OK;
 }
@@ -480,7 +489,8 @@ void bayesopt_gp_forget(bayesopt_gp *gp)
     gp->conditioned = false;
 }
 
-bayesopt_status bayesopt_gp_get_parameters(const bayesopt_gp *gp, bayesopt_gp_parameters *parameters)
+bayesopt_status bayesopt_gp_get_parameters(const bayesopt_gp *gp,
+                                           bayesopt_gp_parameters *parameters)
 {
     if (!gp->has_parameters)
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "gp: no hyper-parameters yet");

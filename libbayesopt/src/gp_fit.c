@@ -11,8 +11,8 @@
 
 static const double log_2pi = 1.8378770664093454836;
 
-/* Variance added to every output of deterministic data, in standardised squared units: it bounds the
- * condition number of K by about n 1e8. */
+/* Variance added to every output of deterministic data, in standardised squared units: it bounds
+ * the condition number of K by about n 1e8. */
 static const double deterministic_noise = 1e-8;
 
 /* Ranges of the search: length scales in units of the box, variances of standardised outputs. */
@@ -50,7 +50,8 @@ static void unpack(const struct fit *fit, const double *theta, struct gp_theta *
         fit->lengthscale[j] = exp(theta[fit->group[j]]);
     out->lengthscale = fit->lengthscale;
     out->signal = exp(theta[fit->groups]);
-    out->noise = fit->parameters > fit->groups + 1 ? exp(theta[fit->groups + 1]) : deterministic_noise;
+    out->noise =
+        fit->parameters > fit->groups + 1 ? exp(theta[fit->groups + 1]) : deterministic_noise;
 }
 
 /* log prior density of theta and its gradient (added). The precision of common + own deviations is
@@ -69,8 +70,8 @@ static double log_prior(const struct fit *fit, const double *theta, double *grad
         if (gradient)
             gradient[g] -= deviation / v + mean / along;
     }
-    double value = -0.5 * (square + count * mean * mean / along + (count - 1) * log(v) + log(along) +
-                           count * log_2pi);
+    double value = -0.5 * (square + count * mean * mean / along + (count - 1) * log(v) +
+                           log(along) + count * log_2pi);
     double u = theta[groups] / signal_deviation;
     value -= 0.5 * (u * u + log_2pi) + log(signal_deviation);
     if (gradient)
@@ -204,8 +205,8 @@ static void pack(const struct fit *fit, double *theta)
         theta[fit->groups + 1] = log(fmax(gp->noise, noise_range[0]));
 }
 
-/* The first start is 0.75 sqrt(d), others are drawn from the prior; short scales, where the gradient
- * vanishes, are avoided. */
+/* The first start is 0.75 sqrt(d), others are drawn from the prior; short scales, where the
+ * gradient vanishes, are avoided. */
 static void draw_start(const struct fit *fit, size_t index, double *theta)
 {
     struct random_stream stream;
@@ -235,9 +236,9 @@ static void adopt(struct fit *fit)
     gp->has_parameters = true;
 }
 
-/* Laplace's approximation of the log evidence: log posterior at the mode + k/2 log 2 pi - log det H/2,
- * H by forward differences of the gradient. It charges a model for its freedom, which the density at
- * the mode alone does not. */
+/* Laplace's approximation of the log evidence: log posterior at the mode + k/2 log 2 pi - log det
+ * H/2, H by forward differences of the gradient. It charges a model for its freedom, which the
+ * density at the mode alone does not. */
 static double log_evidence(struct fit *fit)
 {
     size_t k = fit->parameters;
@@ -327,11 +328,12 @@ static double profiled_likelihood(bayesopt_gp *gp, const struct gp_theta *theta)
     return value + 0.5 * residual - 0.5 * n * (1 + log(residual / n)) + jacobian;
 }
 
-/* The transform that makes the data most likely under the present correlations, if it gains more than
- * 2 over leaving them alone. */
+/* The transform that makes the data most likely under the present correlations, if it gains more
+ * than 2 over leaving them alone. */
 static bayesopt_status choose_transform(bayesopt_gp *gp)
 {
-    static const bayesopt_transform kinds[] = {BAYESOPT_TRANSFORM_LOG, BAYESOPT_TRANSFORM_YEO_JOHNSON};
+    static const bayesopt_transform kinds[] = {BAYESOPT_TRANSFORM_LOG,
+                                               BAYESOPT_TRANSFORM_YEO_JOHNSON};
     struct gp_theta theta = {gp->lengthscale, gp->signal, gp->noise};
     bayesopt_transform best = BAYESOPT_TRANSFORM_NONE;
     bool ok = transform_estimate(&gp->transform, best, gp->n, gp->y);
@@ -378,8 +380,8 @@ static bayesopt_status fit_warm(bayesopt_gp *gp, const size_t *isotropic_groups)
     return status;
 }
 
-static bayesopt_status fit_model(bayesopt_gp *gp, struct model model, const size_t *isotropic_groups,
-                                 bool compare, double *score)
+static bayesopt_status fit_model(bayesopt_gp *gp, struct model model,
+                                 const size_t *isotropic_groups, bool compare, double *score)
 {
     struct fit fit;
     double theta[MOST_PARAMETERS];

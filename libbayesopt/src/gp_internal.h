@@ -44,7 +44,8 @@ struct gp_theta {
     double signal, noise;
 };
 
-/* K with w (n x n, may be NULL) beside it; lower triangles, row length n. Uses scaled coordinates. */
+/* K with w (n x n, may be NULL) beside it; lower triangles, row length n. Uses scaled coordinates.
+ */
 void gp_covariance(const struct bayesopt_gp *gp, double signal, double *k, double *w);
 /* Noise variance of point i in modelled squared units. */
 double gp_noise(const struct bayesopt_gp *gp, size_t i, double noise);
@@ -60,8 +61,9 @@ struct gp_scratch {
 };
 bool gp_scratch_create(struct gp_scratch *scratch, size_t capacity);
 void gp_scratch_free(struct gp_scratch *scratch);
-/* Log marginal likelihood at theta, gradient in (log l, log sf2, log sn2) [d + 2] or NULL. Uses t and
- * overwrites the conditioning. false: K is not positive definite within a short jitter ladder. */
+/* Log marginal likelihood at theta, gradient in (log l, log sf2, log sn2) [d + 2] or NULL. Uses t
+ * and overwrites the conditioning. false: K is not positive definite within a short jitter ladder.
+ */
 bool gp_likelihood(struct bayesopt_gp *gp, const struct gp_theta *theta, struct gp_scratch *scratch,
                    double *value, double *gradient);
 /* The gradient alone, from the present factor; need_w: compute w first. */

@@ -14,13 +14,13 @@ enum { BLOCK = 64 };
 
 static bayesopt_status need(const bayesopt_gp *gp, const char *what)
 {
-    return gp->conditioned
-               ? BAYESOPT_OK
-               : bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "gp: %s before the model is conditioned", what);
+    return gp->conditioned ? BAYESOPT_OK
+                           : bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
+                                           "gp: %s before the model is conditioned", what);
 }
 
-/* Variance due to the estimated mean: r' (H'K^-1 H)^-1 r with r = h - H'K^-1 k, Rasmussen and Williams
- * eq. 2.42; overwrites r by (H'K^-1 H)^-1 r. */
+/* Variance due to the estimated mean: r' (H'K^-1 H)^-1 r with r = h - H'K^-1 k, Rasmussen and
+ * Williams eq. 2.42; overwrites r by (H'K^-1 H)^-1 r. */
 static double mean_variance(const bayesopt_gp *gp, double *r)
 {
     matrix_forward(gp->p, gp->gram, gp->p, r);
@@ -38,8 +38,8 @@ static double prior_mean(const bayesopt_gp *gp, const double *x)
 }
 
 /* One block of m <= BLOCK points: k is n x BLOCK, columns d x BLOCK and rest p x BLOCK scratch. */
-static void predict_block(const bayesopt_gp *gp, size_t m, const double *x, double *mean, double *var,
-                          double *k, double *columns, double *rest)
+static void predict_block(const bayesopt_gp *gp, size_t m, const double *x, double *mean,
+                          double *var, double *k, double *columns, double *rest)
 {
     size_t n = gp->n, d = gp->d, p = gp->p;
     double point[1000], r[1001];
@@ -89,8 +89,8 @@ bayesopt_status bayesopt_gp_predict(const bayesopt_gp *gp, size_t m, const doubl
         return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "gp: out of memory");
     double *columns = k + gp->n * BLOCK, *rest = columns + gp->d * BLOCK;
     for (size_t c = 0; c < m; c += BLOCK)
-        predict_block(gp, m - c < BLOCK ? m - c : BLOCK, x + c * gp->d, mean + c, var ? var + c : NULL,
-                      k, columns, rest);
+        predict_block(gp, m - c < BLOCK ? m - c : BLOCK, x + c * gp->d, mean + c,
+                      var ? var + c : NULL, k, columns, rest);
     free(k);
     return BAYESOPT_OK;
 }
@@ -160,6 +160,14 @@ bayesopt_status bayesopt_gp_log_likelihood(const bayesopt_gp *gp, double *value,
     gp_likelihood_gradient(gp, &theta, &scratch, true, gradient);
     gp_scratch_free(&scratch);
     return BAYESOPT_OK;
+}
+
+bayesopt_status bayesopt_gp_outputs(const bayesopt_gp *gp, double *t)
+{
+    bayesopt_status status = need(gp, "outputs");
+    if (!status)
+        memcpy(t, gp->t, gp->n * sizeof *t);
+    return status;
 }
 
 bayesopt_status bayesopt_gp_loo(const bayesopt_gp *gp, double *mean, double *var)

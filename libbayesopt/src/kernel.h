@@ -7,11 +7,12 @@
 #include <bayesopt/gp.h>
 
 /* For n squared scaled distances: the correlations g and, unless w is NULL, the factors
- * w = -2 dg/d(r2), so that dg/dx_j = -w (x_j - x'_j)/l_j^2 and dg/dlog l_j = w ((x_j - x'_j)/l_j)^2.
- * r2 and g may be the same array. */
+ * w = -2 dg/d(r2), so that dg/dx_j = -w (x_j - x'_j)/l_j^2 and dg/dlog l_j = w ((x_j -
+ * x'_j)/l_j)^2. r2 and g may be the same array. */
 void kernel_values(bayesopt_kernel kernel, size_t n, const double *r2, double *g, double *w);
 
-/* r2[k] = sum_j (columns[j ld + k] - point[j])^2 for k < n: columns holds n points variable by variable. */
+/* r2[k] = sum_j (columns[j ld + k] - point[j])^2 for k < n: columns holds n points variable by
+ * variable. */
 void kernel_distances(size_t n, size_t d, const double *columns, size_t ld, const double *point,
                       double *r2);
 

@@ -117,8 +117,8 @@ void matrix_solve_lower(size_t n, const double *l, size_t ld, size_t m, double *
             size_t width = tile_end(c, m) - c;
             double *tile = b + i * ldb + c;
             for (size_t k = 0; k < i; k += TILE)
-                subtract_product(height, width, TILE, l + i * ld + k, ld, b + k * ldb + c, ldb, tile,
-                                 ldb);
+                subtract_product(height, width, TILE, l + i * ld + k, ld, b + k * ldb + c, ldb,
+                                 tile, ldb);
             tile_solve(height, l + i * ld + i, ld, width, tile, ldb);
         }
     }
@@ -153,8 +153,8 @@ static void invert_lower(size_t n, const double *l, size_t ld, double *work)
                     tile[r * ld + r] = 1;
             }
             for (size_t k = c; k < i; k += TILE)
-                subtract_product(height, width, TILE, l + i * ld + k, ld, work + k * ld + c, ld, tile,
-                                 ld);
+                subtract_product(height, width, TILE, l + i * ld + k, ld, work + k * ld + c, ld,
+                                 tile, ld);
             tile_solve(height, l + i * ld + i, ld, width, tile, ld);
         }
     }

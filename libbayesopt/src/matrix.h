@@ -1,7 +1,7 @@
 /* Dense factorisation and solves, row-major, lower triangles.
  *
- * Work is cut into 64 x 64 tiles whose products OpenBLAS computes in the calling thread whatever its
- * thread setting, so results do not depend on that setting and concurrent callers do not
+ * Work is cut into 64 x 64 tiles whose products OpenBLAS computes in the calling thread whatever
+ * its thread setting, so results do not depend on that setting and concurrent callers do not
  * oversubscribe the machine. */
 #ifndef BAYESOPT_MATRIX_H
 #define BAYESOPT_MATRIX_H
@@ -20,7 +20,8 @@ void matrix_solve_lower(size_t n, const double *l, size_t ld, size_t m, double *
 void matrix_forward(size_t n, const double *l, size_t ld, double *b);
 void matrix_backward(size_t n, const double *l, size_t ld, double *b);
 
-/* inverse := (L L')^-1, lower triangle (tiles on the diagonal whole); work: n x n. Row lengths ld for all. O(2 n^3/3). */
+/* inverse := (L L')^-1, lower triangle (tiles on the diagonal whole); work: n x n. Row lengths ld
+ * for all. O(2 n^3/3). */
 void matrix_inverse(size_t n, const double *l, size_t ld, double *inverse, double *work);
 
 /* C := A B, A n x k (lda), B k x m (ldb), C n x m (ldc). */

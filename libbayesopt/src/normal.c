@@ -16,9 +16,9 @@ static double distribution(double z)
     return erfc(-z * sqrt_half) / 2;
 }
 
-/* Laplace's continued fraction of Mills' ratio is Phi(-x)/phi(x) = 1/(x + c), c = 1/(x + 2/(x + 3/...)).
- * Keeping c apart gives h(-x)/phi(x) = 1 - x/(x + c) = c/(x + c) without the cancellation. So many
- * terms reach full double precision for all x >= 2. */
+/* Laplace's continued fraction of Mills' ratio is Phi(-x)/phi(x) = 1/(x + c), c = 1/(x + 2/(x +
+ * 3/...)). Keeping c apart gives h(-x)/phi(x) = 1 - x/(x + c) = c/(x + c) without the cancellation.
+ * So many terms reach full double precision for all x >= 2. */
 static double mills_tail(double x)
 {
     int terms = 12 + (int)(420 / (x * x));
@@ -65,7 +65,8 @@ static double interval(double a, double b, double *at_a, double *at_b)
     if (a > 0) /* the left tail keeps its digits */
         return interval(-b, -a, at_b, at_a);
     if (b > 0) {
-        double outside = (a == -INFINITY ? 0 : distribution(a)) + (b == INFINITY ? 0 : distribution(-b));
+        double outside =
+            (a == -INFINITY ? 0 : distribution(a)) + (b == INFINITY ? 0 : distribution(-b));
         *at_a = density(a) / (1 - outside);
         *at_b = density(b) / (1 - outside);
         return log1p(-outside);

@@ -1,8 +1,9 @@
 /* Sobol's sequence with Owen's nested uniform scrambling.
  *
- * Any primitive polynomials and odd initial direction numbers m_k < 2^k give a (t,s)-sequence (Sobol,
- * USSR Comput. Math. Math. Phys. 7 (1967) 86). The polynomials are enumerated here; the first initial
- * numbers are those of Joe and Kuo, SIAM J. Sci. Comput. 30 (2008) 2635, later ones are drawn. */
+ * Any primitive polynomials and odd initial direction numbers m_k < 2^k give a (t,s)-sequence
+ * (Sobol, USSR Comput. Math. Math. Phys. 7 (1967) 86). The polynomials are enumerated here; the
+ * first initial numbers are those of Joe and Kuo, SIAM J. Sci. Comput. 30 (2008) 2635, later ones
+ * are drawn. */
 #include <stdlib.h>
 
 #include "design_internal.h"
@@ -85,7 +86,8 @@ static uint32_t scramble(uint32_t digits, uint64_t key)
     uint32_t result = 0;
     for (unsigned b = 0; b < BITS; b++) {
         uint64_t prefix = b ? digits >> (BITS - b) : 0;
-        uint32_t flip = (uint32_t)(random_hash(key ^ random_hash(prefix + ((uint64_t)b << 40))) & 1);
+        uint32_t flip =
+            (uint32_t)(random_hash(key ^ random_hash(prefix + ((uint64_t)b << 40))) & 1);
         uint32_t digit = digits >> (BITS - 1 - b) & 1;
         result |= (digit ^ flip) << (BITS - 1 - b);
     }

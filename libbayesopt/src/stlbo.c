@@ -1,7 +1,8 @@
-/* Sampling by teaching and learning after Khan and Gunpinar, Computer-Aided Design 100 (2018) 52-67:
- * one sub-population of learners per sample, its teacher is the sample; the cost favours space filling
- * (Audze-Eglais) and one-dimensional strata of their own, and penalises violated constraints. The
- * phases are those of Rao, Savsani and Vakharia, Computer-Aided Design 43 (2011) 303. */
+/* Sampling by teaching and learning after Khan and Gunpinar, Computer-Aided Design 100 (2018)
+ * 52-67: one sub-population of learners per sample, its teacher is the sample; the cost favours
+ * space filling (Audze-Eglais) and one-dimensional strata of their own, and penalises violated
+ * constraints. The phases are those of Rao, Savsani and Vakharia, Computer-Aided Design 43 (2011)
+ * 303. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -83,8 +84,8 @@ static void learn(struct school *s, size_t p, struct random_stream *stream)
     }
 }
 
-/* Costs move with the teachers of the others, so they are taken anew for every visit. Returns the cost
- * of the new teacher. */
+/* Costs move with the teachers of the others, so they are taken anew for every visit. Returns the
+ * cost of the new teacher. */
 static double visit(struct school *s, size_t p, struct random_stream *stream)
 {
     double *learners = s->learners + p * LEARNERS * s->d;
@@ -130,9 +131,9 @@ static bayesopt_status enrol(struct school *s, struct random_stream *stream)
     for (size_t p = 0; p < s->n; p++)
         for (size_t q = 0; q < p; q++)
             s->unit += 2 / (double)s->n *
-                       design_pair_energy(design_distance2(s->d, s->teachers + p * s->d,
-                                                           s->teachers + q * s->d),
-                                          s->options->power);
+                       design_pair_energy(
+                           design_distance2(s->d, s->teachers + p * s->d, s->teachers + q * s->d),
+                           s->options->power);
     return BAYESOPT_OK;
 }
 

@@ -53,9 +53,9 @@ static void begin(struct dataset *set, const char *line)
     char kernel[32];
     bayesopt_gp_free(set->gp);
     memset(set, 0, sizeof *set);
-    CU_ASSERT_EQUAL_FATAL(sscanf(line, "dataset %63s %31s %zu %zu %lf %lf %lf %lf", set->name, kernel,
-                                 &set->n, &set->d, &set->parameters.mean, &set->parameters.signal,
-                                 &set->parameters.noise, &set->condition),
+    CU_ASSERT_EQUAL_FATAL(sscanf(line, "dataset %63s %31s %zu %zu %lf %lf %lf %lf", set->name,
+                                 kernel, &set->n, &set->d, &set->parameters.mean,
+                                 &set->parameters.signal, &set->parameters.noise, &set->condition),
                           8);
     while (strcmp(bayesopt_kernel_name(set->kernel), kernel) != 0 && set->kernel < 3)
         set->kernel++;
@@ -93,8 +93,8 @@ static void check_gls(const struct dataset *set, double expected)
     bayesopt_gp_free(gp);
 }
 
-/* Errors of mean and variance are relative to the spread of the data and the signal variance: close to
- * the data both are small differences of those. */
+/* Errors of mean and variance are relative to the spread of the data and the signal variance: close
+ * to the data both are small differences of those. */
 static void check_test_point(struct dataset *set, const double *expected)
 {
     size_t d = set->d;

@@ -84,8 +84,8 @@ typedef struct bayesopt_gp_options {
     bayesopt_transform transform; /**< default BAYESOPT_TRANSFORM_NONE */
     bayesopt_choice choice;       /**< default BAYESOPT_CHOICE_POSTERIOR */
     /** Prior log l_j = log(d)/2 + prior_shift + c + e_j with c ~ N(0, prior_common) shared by all
-     * variables and e_j ~ N(0, prior_variance), in units of a unit box: scales grow like sqrt(d) and are
-     * alike until the data say otherwise. */
+     * variables and e_j ~ N(0, prior_variance), in units of a unit box: scales grow like sqrt(d)
+     * and are alike until the data say otherwise. */
     double prior_shift;    /**< default 0 */
     double prior_common;   /**< default 1 */
     double prior_variance; /**< default NAN: 0.1 or 1, the likelier */
@@ -190,6 +190,9 @@ BAYESOPT_API bayesopt_status bayesopt_gp_log_likelihood(const bayesopt_gp *gp, d
 /** Leave-one-out predictions of the modelled outputs with the hyper-parameters and the mean kept;
  * var includes the noise. mean, var [n] filled. Rasmussen and Williams, eqs. 5.10-5.12. */
 BAYESOPT_API bayesopt_status bayesopt_gp_loo(const bayesopt_gp *gp, double *mean, double *var);
+
+/** The modelled outputs (transformed, standardised) of the data; t [n] filled. */
+BAYESOPT_API bayesopt_status bayesopt_gp_outputs(const bayesopt_gp *gp, double *t);
 
 /** Writes data and hyper-parameters as text; numbers round-trip exactly. */
 BAYESOPT_API bayesopt_status bayesopt_gp_save(const bayesopt_gp *gp, const char *path);

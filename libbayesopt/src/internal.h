@@ -1,0 +1,73 @@
+/* The optimisation object and what its source files share. */
+#ifndef BAYESOPT_INTERNAL_H
+#define BAYESOPT_INTERNAL_H
+
+#include <bayesopt/bayesopt.h>
+
+#include "random.h"
+#include "region.h"
+#include "surrogate.h"
+
+struct store;
+
+/* A point of the history. Arrays are owned. */
+struct point {
+    uint64_t id;
+    bayesopt_phase phase;
+    bayesopt_state state;
+    int level;
+    double *x; /* [d] the caller's units */
+    double *u; /* [d] the same in [0,1]^d */
+    double f;
+    double *constraints; /* [n_constraints] or NULL */
+    double *gradient;    /* [d] or NULL, the caller's units */
+    double variance;
+    char *note;
+    int64_t session; /* that asked it; 0: none any more, to be asked again */
+    bool detached;   /* pending, to be told by another session */
+};
+
+struct bayesopt {
+    size_t d;
+    double *lower, *upper;
+    bayesopt_options options; /* pointers in it refer to the copies below */
+    double *initial_x, *constraint_lower, *constraint_upper, *linear_a, *linear_b;
+
+    struct region region;     /* linear and callback constraints on [0,1]^d */
+    double *constraint_x;     /* [d] scratch of the region's callback */
+    bool constraints_missing; /* opened from a store without its callback */
+
+    double *design; /* [initial_n x d] in [0,1]^d, made when first needed */
+    struct point *points;
+    size_t n_points, room;
+
+    struct surrogates surrogates;
+    struct store *store;
+    int64_t session;
+};
+
+/* bayesopt.c */
+size_t problem_budget(const struct bayesopt *bo);
+void problem_to_unit(const struct bayesopt *bo, const double *x, double *u);
+void problem_from_unit(const struct bayesopt *bo, const double *u, double *x);
+
+/* history.c */
+bool point_feasible(const struct bayesopt *bo, const struct point *point);
+/* Index of the best point: feasible with least f, else least violation; SIZE_MAX if none is done.
+ */
+size_t history_best(const struct bayesopt *bo, bool *feasible);
+double history_violation(const struct bayesopt *bo, const struct point *point);
+/* Appends a pending point at u (copied); NULL: out of memory. */
+struct point *history_append(struct bayesopt *bo, uint64_t id, const double *x,
+                             bayesopt_phase phase);
+struct point *history_find(struct bayesopt *bo, uint64_t id);
+void history_truncate(struct bayesopt *bo, size_t n);
+void point_clear(struct point *point);
+size_t history_count_state(const struct bayesopt *bo, bayesopt_state state);
+
+/* strategy.c: the next point in [0,1]^d, as proposal number id. */
+bayesopt_status strategy_propose(struct bayesopt *bo, uint64_t id, double *u, bayesopt_phase *phase,
+                                 int *level);
+double strategy_trust_length(const struct bayesopt *bo);
+
+#endif

@@ -1,0 +1,381 @@
+#include "search.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <nlopt.h>
+
+#include "error.h"
+#include "label.h"
+
+enum { NEIGHBOURS = 200, CENTRES = 5, ASCENT_EVALUATIONS = 60 };
+
+struct climber {
+    struct bayesopt *bo;
+    const struct search *search;
+    bool improvement; /* there is a feasible point to improve on */
+    double best;      /* its value in modelled units */
+    double *work, *dmean, *dvar;
+    double *constraint_lower, *constraint_upper; /* modelled units */
+    double *best_u, best_value;                  /* of the present ascent */
+};
+
+bayesopt_status search_believe_pending(struct bayesopt *bo)
+{
+    struct surrogates *s = &bo->surrogates;
+    for (size_t i = 0; i < bo->n_points; i++) {
+        const struct point *p = &bo->points[i];
+        if (p->state != BAYESOPT_STATE_PENDING)
+            continue;
+        for (size_t g = 0; g + 1 < s->count; g++) {
+            double mean, zero = 0;
+            if (!s->gps[g])
+                continue;
+            bayesopt_status status = bayesopt_gp_predict(s->gps[g], 1, p->u, &mean, NULL);
+            if (!status) {
+                double y = bayesopt_gp_from_model(s->gps[g], mean);
+                status = bayesopt_gp_append(s->gps[g], 1, p->u, &y, &zero);
+            }
+            if (status)
+                return status;
+        }
+    }
+    return BAYESOPT_OK;
+}
+
+/* Modelled value to improve on: the best observation, or with noise the best posterior mean at an
+ * observed point. */
+static bayesopt_status find_incumbent(struct climber *c)
+{
+    const struct bayesopt *bo = c->bo;
+    const bayesopt_gp *gp = bo->surrogates.gps[0];
+    bool noisy = bo->options.noise != BAYESOPT_NOISE_DETERMINISTIC;
+    c->best = INFINITY;
+    for (size_t i = 0; i < bo->n_points; i++) {
+        double value;
+        if (!point_feasible(bo, &bo->points[i]))
+            continue;
+        if (noisy) {
+            bayesopt_status status = bayesopt_gp_predict(gp, 1, bo->points[i].u, &value, NULL);
+            if (status)
+                return status;
+        } else {
+            value = bayesopt_gp_to_model(gp, bo->points[i].f);
+        }
+        c->best = fmin(c->best, value);
+    }
+    c->improvement = isfinite(c->best);
+    return BAYESOPT_OK;
+}
+
+/* Acquisition from means and variances of all models; derivatives in them when wanted. */
+static double combine(const struct climber *c, size_t stride, const double *mean, const double *var,
+                      double *by_mean, double *by_var)
+{
+    const struct surrogates *s = &c->bo->surrogates;
+    double value = 0;
+    for (size_t g = 0; g < s->count; g++) {
+        double dm = 0, ds = 0;
+        if (!s->gps[g])
+            continue;
+        double sd = sqrt(fmax(var[g * stride], 1e-12));
+        if (g + 1 == s->count) {
+            value += label_log_trust(mean[g * stride], &dm);
+        } else if (g > 0) {
+            value += bayesopt_log_feasibility(mean[g * stride], sd, c->constraint_lower[g - 1],
+                                              c->constraint_upper[g - 1], &dm, &ds);
+        } else if (c->search->goal == SEARCH_MEAN && c->improvement) {
+            value -= mean[0];
+            dm = -1;
+        } else if (c->improvement) {
+            value += bayesopt_log_ei(mean[0], sd, c->best, &dm, &ds);
+        }
+        if (by_mean) {
+            by_mean[g] = dm;
+            by_var[g] = ds / (2 * sd);
+        }
+    }
+    return value;
+}
+
+static double climb_value(struct climber *c, const double *u, double *gradient)
+{
+    const struct surrogates *s = &c->bo->surrogates;
+    size_t d = c->bo->d, count = s->count;
+    double mean[count], var[count], by_mean[count], by_var[count];
+    for (size_t g = 0; g < count; g++)
+        if (s->gps[g] && bayesopt_gp_predict_gradient(s->gps[g], u, &mean[g], &var[g],
+                                                      c->dmean + g * d, c->dvar + g * d, c->work))
+            return -INFINITY;
+    double value = combine(c, 1, mean, var, by_mean, by_var);
+    for (size_t j = 0; j < d && gradient; j++) {
+        gradient[j] = 0;
+        for (size_t g = 0; g < count; g++)
+            if (s->gps[g])
+                gradient[j] += by_mean[g] * c->dmean[g * d + j] + by_var[g] * c->dvar[g * d + j];
+    }
+    return value;
+}
+
+static double climb_objective(unsigned n, const double *u, double *gradient, void *data)
+{
+    struct climber *c = data;
+    double value = climb_value(c, u, gradient);
+    for (unsigned j = 0; gradient && j < n; j++)
+        gradient[j] = isfinite(gradient[j]) ? -gradient[j] : 0;
+    if (!isfinite(value))
+        return 1e30;
+    if (value > c->best_value && (!c->bo->region.m || region_contains(&c->bo->region, u))) {
+        c->best_value = value;
+        memcpy(c->best_u, u, n * sizeof *u);
+    }
+    return -value;
+}
+
+/* Constraint values with a Jacobian that is differenced once and then kept up to date by Broyden's
+ * rank-one formula: constraints may be dear compared with the models. */
+struct broyden {
+    struct bayesopt *bo;
+    bool started;
+    double *u, *values, *jacobian;
+};
+
+static void input_constraints(unsigned m, double *result, unsigned n, const double *u,
+                              double *gradient, void *data)
+{
+    struct broyden *b = data;
+    double square = 0;
+    if (!region_values(&b->bo->region, u, result))
+        for (unsigned i = 0; i < m; i++)
+            result[i] = 1;
+    if (!gradient)
+        return;
+    for (unsigned j = 0; j < n && b->started; j++)
+        square += (u[j] - b->u[j]) * (u[j] - b->u[j]);
+    if (!b->started) {
+        b->started = region_jacobian(&b->bo->region, u, result, b->jacobian);
+        if (!b->started)
+            memset(b->jacobian, 0, (size_t)m * n * sizeof *b->jacobian);
+    } else if (square > 0) {
+        for (unsigned i = 0; i < m; i++) {
+            double *row = b->jacobian + (size_t)i * n, miss = result[i] - b->values[i];
+            for (unsigned j = 0; j < n; j++)
+                miss -= row[j] * (u[j] - b->u[j]);
+            for (unsigned j = 0; j < n; j++)
+                row[j] += miss * (u[j] - b->u[j]) / square;
+        }
+    }
+    memcpy(b->u, u, n * sizeof *u);
+    memcpy(b->values, result, m * sizeof *result);
+    memcpy(gradient, b->jacobian, (size_t)m * n * sizeof *gradient);
+}
+
+/* One ascent from u; leaves the best point seen (within the region) in c->best_u. */
+static bayesopt_status ascend(struct climber *c, const double *u)
+{
+    struct bayesopt *bo = c->bo;
+    size_t d = bo->d, m = bo->region.m;
+    double at[1000], value;
+    struct broyden broyden = {.bo = bo};
+    double *tolerances = NULL;
+    nlopt_opt opt = nlopt_create(m ? NLOPT_LD_SLSQP : NLOPT_LD_LBFGS, (unsigned)d);
+    if (!opt)
+        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
+    nlopt_set_min_objective(opt, climb_objective, c);
+    nlopt_set_lower_bounds(opt, c->search->lower);
+    nlopt_set_upper_bounds(opt, c->search->upper);
+    nlopt_set_maxeval(opt, ASCENT_EVALUATIONS);
+    nlopt_set_ftol_abs(opt, 1e-5);
+    if (m) {
+        broyden.u = malloc((d + 2 * m + m * d) * sizeof *broyden.u);
+        if (!broyden.u) {
+            nlopt_destroy(opt);
+            return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
+        }
+        broyden.values = broyden.u + d;
+        broyden.jacobian = broyden.values + m;
+        tolerances = broyden.jacobian + m * d;
+        memset(tolerances, 0, m * sizeof *tolerances);
+        nlopt_add_inequality_mconstraint(opt, (unsigned)m, input_constraints, &broyden, tolerances);
+    }
+    c->best_value = -INFINITY;
+    memcpy(at, u, d * sizeof *at);
+    nlopt_optimize(opt, at, &value);
+    nlopt_destroy(opt);
+    free(broyden.u);
+    return BAYESOPT_OK;
+}
+
+/* Rows of the history by merit: feasible ones by value, then the rest by violation. */
+static size_t pick_centres(const struct bayesopt *bo, size_t *centres)
+{
+    size_t count = 0;
+    for (; count < CENTRES; count++) {
+        size_t best = SIZE_MAX;
+        double violation = INFINITY, f = INFINITY;
+        for (size_t i = 0; i < bo->n_points; i++) {
+            const struct point *p = &bo->points[i];
+            bool taken = p->state != BAYESOPT_STATE_DONE;
+            for (size_t k = 0; k < count; k++)
+                taken = taken || centres[k] == i;
+            if (taken)
+                continue;
+            double v = history_violation(bo, p);
+            if (v < violation || (v == violation && p->f < f)) {
+                violation = v;
+                f = p->f;
+                best = i;
+            }
+        }
+        if (best == SIZE_MAX)
+            break;
+        centres[count] = best;
+    }
+    return count;
+}
+
+/* Uniform candidates (a scrambled Sobol sequence) and perturbations of the best points. */
+static bayesopt_status make_candidates(struct bayesopt *bo, const struct search *search, double *x,
+                                       size_t *n)
+{
+    size_t d = bo->d, centres[CENTRES], count = pick_centres(bo, centres);
+    bayesopt_design_options options;
+    bayesopt_design_options_init(&options);
+    options.seed = random_hash(bo->options.seed ^ random_hash(search->id));
+    bayesopt_status status =
+        bayesopt_design(BAYESOPT_DESIGN_SOBOL, search->candidates, d, &options, x);
+    if (status)
+        return status;
+    for (size_t i = 0; i < search->candidates; i++)
+        for (size_t j = 0; j < d; j++)
+            x[i * d + j] = search->lower[j] + x[i * d + j] * (search->upper[j] - search->lower[j]);
+    struct random_stream stream;
+    random_start(&stream, bo->options.seed, STREAM_SEARCH, search->id);
+    double share = fmin(1, 8 / (double)d);
+    for (size_t i = 0; i < NEIGHBOURS && count; i++) {
+        const double *centre = bo->points[centres[i % count]].u;
+        double *at = x + (search->candidates + i) * d, size = i % 2 ? 0.1 : 0.02;
+        size_t always = random_below(&stream, d);
+        for (size_t j = 0; j < d; j++) {
+            double draw = random_uniform(&stream), move = size * random_normal(&stream);
+            double to = centre[j] + (draw < share || j == always ? move : 0);
+            at[j] = fmin(fmax(to, search->lower[j]), search->upper[j]);
+        }
+    }
+    *n = search->candidates + (count ? NEIGHBOURS : 0);
+    return BAYESOPT_OK;
+}
+
+static bayesopt_status score(struct climber *c, size_t n, const double *x, double *values)
+{
+    const struct surrogates *s = &c->bo->surrogates;
+    double *mean = malloc(2 * n * s->count * sizeof *mean);
+    if (!mean)
+        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
+    double *var = mean + n * s->count;
+    bayesopt_status status = BAYESOPT_OK;
+    for (size_t g = 0; g < s->count && !status; g++)
+        if (s->gps[g])
+            status = bayesopt_gp_predict(s->gps[g], n, x, mean + g * n, var + g * n);
+    for (size_t i = 0; i < n && !status; i++)
+        values[i] = combine(c, n, mean + i, var + i, NULL, NULL);
+    free(mean);
+    return status;
+}
+
+static size_t take_best(size_t from, size_t to, double *values)
+{
+    size_t best = SIZE_MAX;
+    for (size_t i = from; i < to; i++)
+        if (isfinite(values[i]) && (best == SIZE_MAX || values[i] > values[best]))
+            best = i;
+    return best;
+}
+
+/* Ascents from the best candidates of both families in turn; candidates outside the region are
+ * moved into it first. */
+static bayesopt_status ascend_all(struct climber *c, size_t n, double *x, double *values, double *u,
+                                  double *value)
+{
+    struct bayesopt *bo = c->bo;
+    size_t d = bo->d, uniform = c->search->candidates, tries = 0;
+    *value = -INFINITY;
+    for (size_t s = 0; s < c->search->starts && tries < 20 * c->search->starts;) {
+        bool neighbours = s % 2 && n > uniform;
+        size_t i = neighbours ? take_best(uniform, n, values) : take_best(0, uniform, values);
+        if (i == SIZE_MAX)
+            break;
+        tries++;
+        values[i] = NAN;
+        double *start = x + i * d;
+        if (bo->region.m && !region_contains(&bo->region, start)) {
+            if (!region_project(&bo->region, start))
+                continue;
+            for (size_t j = 0; j < d; j++)
+                start[j] = fmin(fmax(start[j], c->search->lower[j]), c->search->upper[j]);
+        }
+        bayesopt_status status = ascend(c, start);
+        if (status)
+            return status;
+        if (c->best_value > *value) {
+            *value = c->best_value;
+            memcpy(u, c->best_u, d * sizeof *u);
+        }
+        s++;
+    }
+    return BAYESOPT_OK;
+}
+
+static bool climber_create(struct climber *c, struct bayesopt *bo, const struct search *search)
+{
+    size_t d = bo->d, count = bo->surrogates.count, m = bo->options.n_constraints;
+    *c = (struct climber){.bo = bo, .search = search};
+    c->work = malloc((2 * (bo->n_points + 8) + 2 * count * d + 2 * m + d) * sizeof *c->work);
+    if (!c->work)
+        return false;
+    c->dmean = c->work + 2 * (bo->n_points + 8);
+    c->dvar = c->dmean + count * d;
+    c->constraint_lower = c->dvar + count * d;
+    c->constraint_upper = c->constraint_lower + m;
+    c->best_u = c->constraint_upper + m;
+    for (size_t i = 0; i < m; i++) {
+        const bayesopt_gp *gp = bo->surrogates.gps[i + 1];
+        double low = bo->constraint_lower[i], high = bo->constraint_upper[i];
+        c->constraint_lower[i] = isinf(low) ? low : bayesopt_gp_to_model(gp, low);
+        c->constraint_upper[i] = isinf(high) ? high : bayesopt_gp_to_model(gp, high);
+    }
+    return true;
+}
+
+bayesopt_status search_run(struct bayesopt *bo, const struct search *search, double *u,
+                           double *value)
+{
+    struct climber c;
+    size_t n = search->candidates + NEIGHBOURS;
+    double *x = malloc(n * (bo->d + 1) * sizeof *x);
+    if (!x || !climber_create(&c, bo, search)) {
+        free(x);
+        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
+    }
+    double *values = x + n * bo->d;
+    bayesopt_status status = find_incumbent(&c);
+    if (!status)
+        status = make_candidates(bo, search, x, &n);
+    if (!status)
+        status = score(&c, n, x, values);
+    if (!status)
+        status = ascend_all(&c, n, x, values, u, value);
+    if (!status && !isfinite(*value)) {
+        /* No start led anywhere: any point of the region in place of none. */
+        struct random_stream stream;
+        random_start(&stream, bo->options.seed, STREAM_SEARCH, random_hash(search->id));
+        if (!region_find(&bo->region, &stream, u))
+            status = bayesopt_fail(BAYESOPT_ERROR_INFEASIBLE,
+                                   "no point found that satisfies the %zu input constraints",
+                                   bo->region.m);
+    }
+    free(c.work);
+    free(x);
+    return status;
+}

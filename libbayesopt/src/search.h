@@ -1,0 +1,28 @@
+/* The point of a box that promises most under the fitted models. */
+#ifndef BAYESOPT_SEARCH_H
+#define BAYESOPT_SEARCH_H
+
+#include "internal.h"
+
+enum search_goal {
+    SEARCH_IMPROVEMENT, /* log expected improvement, constrained */
+    SEARCH_MEAN,        /* least posterior mean, with probable feasibility */
+};
+
+struct search {
+    enum search_goal goal;
+    const double *lower, *upper; /* [d] the box within [0,1]^d */
+    uint64_t id;                 /* names the random stream */
+    size_t candidates, starts;   /* uniform candidates, ascents */
+};
+
+/* Fills u [d] with the best point found and *value with its acquisition (logarithm of the expected
+ * improvement in modelled units, or minus the mean). The models must be fitted. */
+bayesopt_status search_run(struct bayesopt *bo, const struct search *search, double *u,
+                           double *value);
+
+/* Adds pending points to the models at their posterior means (Kriging believer: Ginsbourger, Le
+ * Riche, Carraro 2010), so that they are not proposed again. */
+bayesopt_status search_believe_pending(struct bayesopt *bo);
+
+#endif

@@ -1,0 +1,363 @@
+/* Reading and writing the history. Every change is one transaction with full synchronisation: a
+ * process may be killed at any moment and the file holds what was promised. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "error.h"
+#include "store_internal.h"
+
+bayesopt_status store_error(const struct store *store, const char *doing)
+{
+    int code = sqlite3_errcode(store->db) & 0xff;
+    bayesopt_status status = code == SQLITE_CORRUPT || code == SQLITE_NOTADB ? BAYESOPT_ERROR_FORMAT
+                             : code == SQLITE_NOMEM                          ? BAYESOPT_ERROR_MEMORY
+                                                                             : BAYESOPT_ERROR_FILE;
+    return bayesopt_fail(status, "%s: %s: %s", store->path, doing, sqlite3_errmsg(store->db));
+}
+
+bayesopt_status store_execute(struct store *store, const char *sql)
+{
+    return sqlite3_exec(store->db, sql, NULL, NULL, NULL) == SQLITE_OK
+               ? BAYESOPT_OK
+               : store_error(store, "writing the store");
+}
+
+bayesopt_status store_prepare(struct store *store, const char *sql, sqlite3_stmt **statement)
+{
+    return sqlite3_prepare_v2(store->db, sql, -1, statement, NULL) == SQLITE_OK
+               ? BAYESOPT_OK
+               : store_error(store, "reading the store");
+}
+
+bool store_bind_numbers(sqlite3_stmt *statement, int index, const double *values, size_t n)
+{
+    if (!values)
+        return sqlite3_bind_null(statement, index) == SQLITE_OK;
+    unsigned char *bytes = malloc(n ? 8 * n : 1);
+    if (!bytes)
+        return false;
+    for (size_t i = 0; i < n; i++) {
+        uint64_t bits;
+        memcpy(&bits, &values[i], sizeof bits);
+        for (int b = 0; b < 8; b++)
+            bytes[8 * i + (size_t)b] = (unsigned char)(bits >> (8 * b));
+    }
+    return sqlite3_bind_blob64(statement, index, bytes, 8 * n, free) == SQLITE_OK;
+}
+
+static void decode(const unsigned char *bytes, size_t n, double *values)
+{
+    for (size_t i = 0; i < n; i++) {
+        uint64_t bits = 0;
+        for (int b = 0; b < 8; b++)
+            bits |= (uint64_t)bytes[8 * i + (size_t)b] << (8 * b);
+        memcpy(&values[i], &bits, sizeof bits);
+    }
+}
+
+double *store_column_numbers(sqlite3_stmt *statement, int column, size_t n)
+{
+    if (sqlite3_column_type(statement, column) != SQLITE_BLOB ||
+        (size_t)sqlite3_column_bytes(statement, column) != 8 * n)
+        return NULL;
+    double *values = malloc((n ? n : 1) * sizeof *values);
+    if (values)
+        decode(sqlite3_column_blob(statement, column), n, values);
+    return values;
+}
+
+bayesopt_status store_put_meta(struct store *store, const char *key, const double *values, size_t n)
+{
+    sqlite3_stmt *s;
+    bayesopt_status status =
+        store_prepare(store, "INSERT OR REPLACE INTO bayesopt_meta(key, value) VALUES(?, ?)", &s);
+    if (status)
+        return status;
+    sqlite3_bind_text(s, 1, key, -1, SQLITE_STATIC);
+    if (!store_bind_numbers(s, 2, values, n))
+        status = bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
+    else if (sqlite3_step(s) != SQLITE_DONE)
+        status = store_error(store, "writing the store");
+    sqlite3_finalize(s);
+    return status;
+}
+
+bayesopt_status store_get_meta(struct store *store, const char *key, double **values, size_t *n)
+{
+    sqlite3_stmt *s;
+    *values = NULL;
+    *n = 0;
+    bayesopt_status status =
+        store_prepare(store, "SELECT value FROM bayesopt_meta WHERE key = ?", &s);
+    if (status)
+        return status;
+    sqlite3_bind_text(s, 1, key, -1, SQLITE_STATIC);
+    int code = sqlite3_step(s);
+    if (code == SQLITE_ROW) {
+        *n = (size_t)sqlite3_column_bytes(s, 0) / 8;
+        *values = store_column_numbers(s, 0, *n);
+        if (!*values)
+            status =
+                bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: entry '%s' is damaged", store->path, key);
+    } else if (code != SQLITE_DONE) {
+        status = store_error(store, "reading the store");
+    }
+    sqlite3_finalize(s);
+    return status;
+}
+
+enum column {
+    ID,
+    CHANGE,
+    PHASE,
+    STATE,
+    LEVEL,
+    SESSION,
+    DETACHED,
+    X,
+    F,
+    CONSTRAINTS,
+    GRADIENT,
+    VARIANCE,
+    NOTE
+};
+
+static bayesopt_status damaged(const struct store *store, sqlite3_stmt *s, const char *what)
+{
+    return bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: point %lld: %s", store->path,
+                         (long long)sqlite3_column_int64(s, ID), what);
+}
+
+/* The outcome columns of a row, into a point that has none yet. */
+static bayesopt_status read_outcome(struct bayesopt *bo, sqlite3_stmt *s, struct point *p)
+{
+    size_t m = bo->options.n_constraints;
+    free(p->constraints);
+    free(p->gradient);
+    free(p->note);
+    p->constraints = p->gradient = NULL;
+    p->note = NULL;
+    if (sqlite3_column_type(s, NOTE) == SQLITE_TEXT) {
+        p->note = malloc((size_t)sqlite3_column_bytes(s, NOTE) + 1);
+        if (!p->note)
+            return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
+        strcpy(p->note, (const char *)sqlite3_column_text(s, NOTE));
+    }
+    if (p->state != BAYESOPT_STATE_DONE)
+        return BAYESOPT_OK;
+    p->f = sqlite3_column_double(s, F);
+    p->variance = sqlite3_column_double(s, VARIANCE);
+    if (sqlite3_column_type(s, F) == SQLITE_NULL || !isfinite(p->f))
+        return damaged(bo->store, s, "is done without a finite value");
+    if (m && !(p->constraints = store_column_numbers(s, CONSTRAINTS, m)))
+        return damaged(bo->store, s, "its constraints are damaged");
+    if (sqlite3_column_type(s, GRADIENT) != SQLITE_NULL &&
+        !(p->gradient = store_column_numbers(s, GRADIENT, bo->d)))
+        return damaged(bo->store, s, "its gradient is damaged");
+    return BAYESOPT_OK;
+}
+
+static bayesopt_status read_row(struct bayesopt *bo, sqlite3_stmt *s)
+{
+    int64_t id = sqlite3_column_int64(s, ID);
+    int phase = sqlite3_column_int(s, PHASE), state = sqlite3_column_int(s, STATE);
+    int level = sqlite3_column_int(s, LEVEL);
+    if (id < 1 || phase < 0 || phase > BAYESOPT_PHASE_EXTERNAL || state < 0 ||
+        state > BAYESOPT_STATE_FAILED || level < 0 || level >= (int)bo->options.n_levels)
+        return damaged(bo->store, s, "id, phase, state or level is outside its range");
+    struct point *p = history_find(bo, (uint64_t)id);
+    if (!p) {
+        double *x = store_column_numbers(s, X, bo->d);
+        bool inside = x != NULL;
+        for (size_t j = 0; j < bo->d && inside; j++)
+            inside = x[j] >= bo->lower[j] && x[j] <= bo->upper[j];
+        if (inside && bo->n_points && bo->points[bo->n_points - 1].id >= (uint64_t)id)
+            inside = false;
+        p = inside ? history_append(bo, (uint64_t)id, x, (bayesopt_phase)phase) : NULL;
+        free(x);
+        if (!inside)
+            return damaged(bo->store, s, "its coordinates are damaged or out of bounds");
+        if (!p)
+            return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
+    }
+    p->state = (bayesopt_state)state;
+    p->level = level;
+    p->session = sqlite3_column_int64(s, SESSION);
+    p->detached = sqlite3_column_int(s, DETACHED) != 0;
+    bo->surrogates.fitted = false;
+    return read_outcome(bo, s, p);
+}
+
+static bayesopt_status read_state(struct bayesopt *bo)
+{
+    double *values;
+    size_t n, size = surrogates_state_size(&bo->surrogates, bo->d);
+    bayesopt_status status = store_get_meta(bo->store, "models", &values, &n);
+    if (!status && values && n == size)
+        surrogates_restore(&bo->surrogates, bo->d, values);
+    else if (!status && values)
+        status =
+            bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: entry 'models' is damaged", bo->store->path);
+    free(values);
+    if (status || bo->design)
+        return status;
+    status = store_get_meta(bo->store, "design", &values, &n);
+    if (!status && values && n != bo->options.initial_n * bo->d)
+        status =
+            bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: entry 'design' is damaged", bo->store->path);
+    if (status)
+        free(values);
+    else
+        bo->design = values;
+    return status;
+}
+
+bayesopt_status store_refresh(struct bayesopt *bo)
+{
+    struct store *store = bo->store;
+    sqlite3_stmt *s;
+    bool changed = false;
+    bayesopt_status status = store_prepare(
+        store,
+        "SELECT id, change, phase, state, level, session, detached, x, f, constraints, "
+        "gradient, variance, note FROM bayesopt_points WHERE change > ? ORDER BY id",
+        &s);
+    if (status)
+        return status;
+    sqlite3_bind_int64(s, 1, store->change);
+    int code = SQLITE_DONE;
+    int64_t last = store->change;
+    while (!status && (code = sqlite3_step(s)) == SQLITE_ROW) {
+        int64_t change = sqlite3_column_int64(s, CHANGE);
+        last = change > last ? change : last;
+        changed = true;
+        status = read_row(bo, s);
+    }
+    if (!status && code != SQLITE_DONE)
+        status = store_error(store, "reading the store");
+    sqlite3_finalize(s);
+    if (!status && changed)
+        status = read_state(bo);
+    if (!status)
+        store->change = last;
+    return status;
+}
+
+bayesopt_status store_begin(struct bayesopt *bo)
+{
+    if (!bo->store)
+        return BAYESOPT_OK;
+    bayesopt_status status = store_execute(bo->store, "BEGIN IMMEDIATE");
+    if (status)
+        return status;
+    bo->store->in_transaction = true;
+    bo->store->change_before = bo->store->change;
+    status = store_refresh(bo);
+    bo->store->change_before = bo->store->change;
+    if (status)
+        store_rollback(bo);
+    return status;
+}
+
+bayesopt_status store_commit(struct bayesopt *bo)
+{
+    if (!bo->store)
+        return BAYESOPT_OK;
+    bayesopt_status status = store_execute(bo->store, "COMMIT");
+    if (!status)
+        bo->store->in_transaction = false;
+    return status;
+}
+
+void store_rollback(struct bayesopt *bo)
+{
+    if (bo->store && bo->store->in_transaction) {
+        sqlite3_exec(bo->store->db, "ROLLBACK", NULL, NULL, NULL);
+        bo->store->in_transaction = false;
+        bo->store->change = bo->store->change_before;
+    }
+}
+
+bayesopt_status bayesopt_refresh(bayesopt *bo)
+{
+    return bo->store ? store_refresh(bo) : BAYESOPT_OK;
+}
+
+static bayesopt_status write_point(struct bayesopt *bo, const struct point *p, const char *sql)
+{
+    sqlite3_stmt *s;
+    if (!bo->store)
+        return BAYESOPT_OK;
+    bayesopt_status status = store_prepare(bo->store, sql, &s);
+    if (status)
+        return status;
+    sqlite3_bind_int64(s, 1, (int64_t)p->id);
+    sqlite3_bind_int64(s, 2, ++bo->store->change);
+    sqlite3_bind_int(s, 3, (int)p->phase);
+    sqlite3_bind_int(s, 4, (int)p->state);
+    sqlite3_bind_int(s, 5, p->level);
+    sqlite3_bind_int64(s, 6, p->session);
+    sqlite3_bind_int(s, 7, p->detached);
+    bool ok = store_bind_numbers(s, 8, p->x, bo->d);
+    if (p->state == BAYESOPT_STATE_DONE)
+        sqlite3_bind_double(s, 9, p->f);
+    ok = ok && store_bind_numbers(s, 10, p->constraints, bo->options.n_constraints);
+    ok = ok && store_bind_numbers(s, 11, p->gradient, bo->d);
+    sqlite3_bind_double(s, 12, p->variance);
+    if (p->note)
+        sqlite3_bind_text(s, 13, p->note, -1, SQLITE_STATIC);
+    if (!ok)
+        status = bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
+    else if (sqlite3_step(s) != SQLITE_DONE)
+        status = store_error(bo->store, "writing the store");
+    sqlite3_finalize(s);
+    return status;
+}
+
+bayesopt_status store_insert(struct bayesopt *bo, const struct point *point)
+{
+    return write_point(
+        bo, point,
+        "INSERT INTO bayesopt_points(id, change, phase, state, level, session, detached, "
+        "x, f, constraints, gradient, variance, note, asked) "
+        "VALUES(?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, "
+        "strftime('%s', 'now'))");
+}
+
+bayesopt_status store_update(struct bayesopt *bo, const struct point *point)
+{
+    return write_point(
+        bo, point,
+        "UPDATE bayesopt_points SET change = ?2, phase = ?3, state = ?4, level = ?5, "
+        "session = ?6, detached = ?7, x = ?8, f = ?9, constraints = ?10, gradient = ?11, "
+        "variance = ?12, note = ?13, told = CASE WHEN ?4 THEN strftime('%s', 'now') END "
+        "WHERE id = ?1");
+}
+
+bayesopt_status store_put_state(struct bayesopt *bo)
+{
+    size_t n = surrogates_state_size(&bo->surrogates, bo->d);
+    if (!bo->store)
+        return BAYESOPT_OK;
+    double *values = malloc(n * sizeof *values);
+    if (!values)
+        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
+    surrogates_save(&bo->surrogates, bo->d, values);
+    bayesopt_status status = store_put_meta(bo->store, "models", values, n);
+    free(values);
+    return status;
+}
+
+bayesopt_status store_put_budget(struct bayesopt *bo)
+{
+    double budget = (double)bo->options.max_evaluations;
+    return bo->store ? store_put_meta(bo->store, "budget", &budget, 1) : BAYESOPT_OK;
+}
+
+bayesopt_status store_put_design(struct bayesopt *bo)
+{
+    return bo->store
+               ? store_put_meta(bo->store, "design", bo->design, bo->options.initial_n * bo->d)
+               : BAYESOPT_OK;
+}

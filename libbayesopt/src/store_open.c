@@ -1,0 +1,426 @@
+/* Opening a store: a new file, the same problem again, or a refusal. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "error.h"
+#include "store_internal.h"
+
+static const double format_version = 1;
+
+static double *numbers(size_t n, const double *from)
+{
+    double *values = malloc((n ? n : 1) * sizeof *values);
+    for (size_t i = 0; values && i < n; i++)
+        values[i] = from[i];
+    return values;
+}
+
+/* Seeds have 64 bits, numbers 53: two halves. */
+static void split_seed(uint64_t seed, double *halves)
+{
+    halves[0] = (double)(seed >> 32);
+    halves[1] = (double)(seed & UINT32_MAX);
+}
+
+/* Order and names of the fields; what each holds is said where it is read back, in open_problem().
+ */
+enum {
+    BOX_LOWER,
+    BOX_UPPER,
+    SEED,
+    INITIAL_KIND,
+    INITIAL_N,
+    INITIAL_X,
+    CONSTRAINT_LOWER,
+    CONSTRAINT_UPPER,
+    LINEAR_A,
+    LINEAR_B,
+    N_INPUT_CONSTRAINTS,
+    NOISE,
+    KERNEL,
+    SCALES,
+    TRANSFORM,
+    STRATEGY,
+    POLISH,
+    N_LEVELS,
+    LEVEL_COST_RATIO,
+    STOPS
+};
+
+bool problem_fields(const struct bayesopt *bo, struct field *f)
+{
+    const bayesopt_options *o = &bo->options;
+    double seed[2], kind = o->initial_kind, n = (double)o->initial_n;
+    double inputs = (double)o->n_input_constraints, noise = o->noise, kernel = o->kernel;
+    double scales = o->scales, transform = o->transform, strategy = o->strategy, polish = o->polish;
+    double levels = (double)o->n_levels;
+    double stops[2] = {(double)o->stop_no_improvement, o->stop_expected_improvement};
+    split_seed(o->seed, seed);
+    const struct {
+        const char *name;
+        size_t n;
+        const double *from;
+    } list[FIELDS] = {
+        [BOX_LOWER] = {"lower", bo->d, bo->lower},
+        [BOX_UPPER] = {"upper", bo->d, bo->upper},
+        [SEED] = {"seed", 2, seed},
+        [INITIAL_KIND] = {"initial_kind", 1, &kind},
+        [INITIAL_N] = {"initial_n", 1, &n},
+        [INITIAL_X] = {"initial_x", bo->initial_x ? o->initial_n * bo->d : 0, bo->initial_x},
+        [CONSTRAINT_LOWER] = {"constraint_lower", o->n_constraints, bo->constraint_lower},
+        [CONSTRAINT_UPPER] = {"constraint_upper", o->n_constraints, bo->constraint_upper},
+        [LINEAR_A] = {"linear_a", o->n_linear * bo->d, bo->linear_a},
+        [LINEAR_B] = {"linear_b", o->n_linear, bo->linear_b},
+        [N_INPUT_CONSTRAINTS] = {"n_input_constraints", 1, &inputs},
+        [NOISE] = {"noise", 1, &noise},
+        [KERNEL] = {"kernel", 1, &kernel},
+        [SCALES] = {"scales", 1, &scales},
+        [TRANSFORM] = {"transform", 1, &transform},
+        [STRATEGY] = {"strategy", 1, &strategy},
+        [POLISH] = {"polish", 1, &polish},
+        [N_LEVELS] = {"n_levels", 1, &levels},
+        [LEVEL_COST_RATIO] = {"level_cost_ratio", 1, &o->level_cost_ratio},
+        [STOPS] = {"stops", 2, stops},
+    };
+    bool ok = true;
+    for (size_t i = 0; i < FIELDS; i++) {
+        f[i] = (struct field){list[i].name, list[i].n, numbers(list[i].n, list[i].from)};
+        ok = ok && f[i].values;
+    }
+    return ok;
+}
+
+void problem_fields_free(struct field *fields)
+{
+    for (size_t i = 0; i < FIELDS; i++)
+        free(fields[i].values);
+}
+
+static const char schema[] =
+    "CREATE TABLE bayesopt_meta(key TEXT PRIMARY KEY, value BLOB NOT NULL) WITHOUT ROWID;"
+    "CREATE TABLE bayesopt_points(id INTEGER PRIMARY KEY, change INTEGER NOT NULL UNIQUE,"
+    " phase INTEGER NOT NULL, state INTEGER NOT NULL, level INTEGER NOT NULL,"
+    " session INTEGER NOT NULL, detached INTEGER NOT NULL, x BLOB NOT NULL, f REAL,"
+    " constraints BLOB, gradient BLOB, variance REAL NOT NULL, note TEXT, asked INTEGER, told "
+    "INTEGER);"
+    "CREATE TABLE bayesopt_sessions(id INTEGER PRIMARY KEY AUTOINCREMENT, host TEXT NOT NULL,"
+    " pid INTEGER NOT NULL, started INTEGER NOT NULL, ended INTEGER NOT NULL);";
+
+/* One integer from a query without parameters. */
+static bayesopt_status query_count(struct store *store, const char *sql, int64_t *count)
+{
+    sqlite3_stmt *s;
+    bayesopt_status status = store_prepare(store, sql, &s);
+    if (status)
+        return status;
+    if (sqlite3_step(s) == SQLITE_ROW)
+        *count = sqlite3_column_int64(s, 0);
+    else
+        status = store_error(store, "reading the store");
+    sqlite3_finalize(s);
+    return status;
+}
+
+static bayesopt_status check_intact(struct store *store)
+{
+    sqlite3_stmt *s;
+    bayesopt_status status = store_prepare(store, "PRAGMA quick_check(1)", &s);
+    if (status)
+        return status;
+    const char *verdict = NULL;
+    if (sqlite3_step(s) == SQLITE_ROW)
+        verdict = (const char *)sqlite3_column_text(s, 0);
+    if (!verdict)
+        status = store_error(store, "checking the store");
+    else if (strcmp(verdict, "ok") != 0)
+        status = bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: the database is damaged: %s",
+                               store->path, verdict);
+    sqlite3_finalize(s);
+    return status;
+}
+
+static bayesopt_status create_tables(struct bayesopt *bo)
+{
+    struct field fields[FIELDS];
+    struct store *store = bo->store;
+    bayesopt_status status = store_execute(store, schema);
+    if (!status)
+        status = store_put_meta(store, "format", &format_version, 1);
+    bool ok = problem_fields(bo, fields);
+    if (!status && !ok)
+        status = bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
+    for (size_t i = 0; i < FIELDS && !status; i++)
+        status = store_put_meta(store, fields[i].name, fields[i].values, fields[i].n);
+    problem_fields_free(fields);
+    return status ? status : store_put_budget(bo);
+}
+
+static bayesopt_status check_format(struct store *store)
+{
+    double *values;
+    size_t n;
+    bayesopt_status status = store_get_meta(store, "format", &values, &n);
+    if (!status && (!values || n != 1 || values[0] != format_version))
+        status = bayesopt_fail(BAYESOPT_ERROR_FORMAT,
+                               "%s: format %g of the store is not known, expected %g", store->path,
+                               values && n ? values[0] : NAN, format_version);
+    free(values);
+    return status;
+}
+
+static bayesopt_status compare_field(struct store *store, const struct field *field)
+{
+    double *values;
+    size_t n;
+    bayesopt_status status = store_get_meta(store, field->name, &values, &n);
+    if (!status && (!values || n != field->n))
+        status =
+            bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
+                          "%s belongs to another problem: '%s' has %zu numbers there, %zu here",
+                          store->path, field->name, n, field->n);
+    for (size_t i = 0; i < field->n && !status; i++)
+        if (values[i] != field->values[i])
+            status =
+                bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
+                              "%s belongs to another problem: '%s' number %zu is %g there, %g here",
+                              store->path, field->name, i, values[i], field->values[i]);
+    free(values);
+    return status;
+}
+
+static bayesopt_status compare_problem(struct bayesopt *bo)
+{
+    struct field fields[FIELDS];
+    bayesopt_status status = problem_fields(bo, fields)
+                                 ? BAYESOPT_OK
+                                 : bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
+    for (size_t i = 0; i < STOPS && !status; i++)
+        status = compare_field(bo->store, &fields[i]);
+    problem_fields_free(fields);
+    return status ? status : store_put_budget(bo);
+}
+
+/* Tables of this library: 0 = none in an empty file, 1 = all there; anything else is refused. */
+static bayesopt_status classify(struct store *store, bool *present)
+{
+    int64_t ours = 0, all = 0;
+    bayesopt_status status =
+        query_count(store,
+                    "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name IN "
+                    "('bayesopt_meta', 'bayesopt_points', 'bayesopt_sessions')",
+                    &ours);
+    if (!status)
+        status = query_count(store, "SELECT count(*) FROM sqlite_master", &all);
+    if (!status && ours != 3 && all > 0)
+        status =
+            bayesopt_fail(BAYESOPT_ERROR_FORMAT,
+                          "%s: a database, but not a store of libbayesopt: %lld of its 3 tables",
+                          store->path, (long long)ours);
+    *present = ours == 3;
+    return status;
+}
+
+static bayesopt_status connect(const char *path, int flags, struct store **out)
+{
+    struct store *store = calloc(1, sizeof *store);
+    if (store)
+        store->path = malloc(strlen(path) + 1);
+    if (!store || !store->path) {
+        free(store);
+        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
+    }
+    strcpy(store->path, path);
+    bayesopt_status status = BAYESOPT_OK;
+    if (sqlite3_open_v2(path, &store->db, SQLITE_OPEN_READWRITE | flags, NULL) != SQLITE_OK)
+        status = bayesopt_fail(BAYESOPT_ERROR_FILE, "%s: %s", path,
+                               store->db ? sqlite3_errmsg(store->db) : "out of memory");
+    /* Another session's ask holds the lock while it computes. */
+    if (!status)
+        sqlite3_busy_timeout(store->db, 600000);
+    if (!status)
+        status = store_execute(store, "PRAGMA synchronous = FULL");
+    if (!status)
+        status = check_intact(store);
+    if (status) {
+        sqlite3_close(store->db);
+        free(store->path);
+        free(store);
+        return status;
+    }
+    *out = store;
+    return BAYESOPT_OK;
+}
+
+static void disconnect(struct bayesopt *bo)
+{
+    sqlite3_close(bo->store->db);
+    free(bo->store->path);
+    free(bo->store);
+    bo->store = NULL;
+}
+
+bayesopt_status bayesopt_open_store(bayesopt *bo, const char *path)
+{
+    bool present = false;
+    if (bo->store || bo->n_points)
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
+                             "%s: a store is opened once and before the first point", path);
+    bayesopt_status status = connect(path, SQLITE_OPEN_CREATE, &bo->store);
+    if (status)
+        return status;
+    status = store_execute(bo->store, "BEGIN IMMEDIATE");
+    bo->store->in_transaction = !status;
+    if (!status)
+        status = classify(bo->store, &present);
+    if (!status && present)
+        status = check_format(bo->store);
+    if (!status)
+        status = present ? compare_problem(bo) : create_tables(bo);
+    if (!status)
+        status = store_session_start(bo);
+    if (!status)
+        status = store_refresh(bo);
+    if (!status)
+        status = store_release_orphans(bo, false);
+    if (!status)
+        status = store_commit(bo);
+    if (status) {
+        store_rollback(bo);
+        history_truncate(bo, 0);
+        disconnect(bo);
+    }
+    return status;
+}
+
+void store_close(struct bayesopt *bo)
+{
+    if (!bo->store)
+        return;
+    store_session_end(bo);
+    disconnect(bo);
+}
+
+static double first(const struct field *field)
+{
+    return field->n ? field->values[0] : NAN;
+}
+
+/* The options and bounds a store was created with; arrays stay in the fields. */
+static bayesopt_status create_from_fields(const struct field *f, double budget,
+                                          bayesopt_input_constraint input_constraint,
+                                          void *input_data, bayesopt **bo)
+{
+    bayesopt_options o;
+    size_t d = f[BOX_LOWER].n;
+    bayesopt_options_init(&o);
+    o.seed = ((uint64_t)first(&f[SEED]) << 32) | (uint64_t)f[SEED].values[1];
+    o.max_evaluations = (size_t)budget;
+    o.initial_kind = (bayesopt_design_kind)first(&f[INITIAL_KIND]);
+    o.initial_n = (size_t)first(&f[INITIAL_N]);
+    o.initial_x = f[INITIAL_X].n ? f[INITIAL_X].values : NULL;
+    o.n_constraints = f[CONSTRAINT_LOWER].n;
+    o.constraint_lower = f[CONSTRAINT_LOWER].values;
+    o.constraint_upper = f[CONSTRAINT_UPPER].values;
+    o.n_linear = f[LINEAR_B].n;
+    o.linear_a = f[LINEAR_A].values;
+    o.linear_b = f[LINEAR_B].values;
+    o.noise = (bayesopt_noise)first(&f[NOISE]);
+    o.kernel = (bayesopt_kernel)first(&f[KERNEL]);
+    o.scales = (bayesopt_scales)first(&f[SCALES]);
+    o.transform = (bayesopt_transform)first(&f[TRANSFORM]);
+    o.strategy = (bayesopt_strategy)first(&f[STRATEGY]);
+    o.polish = first(&f[POLISH]) != 0;
+    o.n_levels = (size_t)first(&f[N_LEVELS]);
+    o.level_cost_ratio = first(&f[LEVEL_COST_RATIO]);
+    o.stop_no_improvement = (size_t)first(&f[STOPS]);
+    o.stop_expected_improvement = f[STOPS].values[1];
+    o.n_input_constraints = (size_t)first(&f[N_INPUT_CONSTRAINTS]);
+    o.input_constraint = input_constraint;
+    o.input_data = input_data;
+    bool missing = o.n_input_constraints && !input_constraint;
+    size_t wanted = o.n_input_constraints;
+    if (missing)
+        o.n_input_constraints = 0;
+    bayesopt_status status = bayesopt_create(d, f[BOX_LOWER].values, f[BOX_UPPER].values, &o, bo);
+    if (!status && missing) {
+        (*bo)->options.n_input_constraints = wanted;
+        (*bo)->constraints_missing = true;
+    }
+    return status;
+}
+
+static bayesopt_status read_fields(struct store *store, struct field *fields, double *budget)
+{
+    /* Names and lengths come from a small problem of the library's own. */
+    const double lower = 0, upper = 1;
+    bayesopt *sample;
+    double *values;
+    size_t n;
+    bayesopt_status status = bayesopt_create(1, &lower, &upper, NULL, &sample);
+    if (status)
+        return status;
+    bool ok = problem_fields(sample, fields);
+    bayesopt_free(sample);
+    status = ok ? check_format(store) : bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
+    for (size_t i = 0; i < FIELDS && !status; i++) {
+        size_t expected = fields[i].n;
+        free(fields[i].values);
+        fields[i].values = NULL;
+        status = store_get_meta(store, fields[i].name, &fields[i].values, &fields[i].n);
+        bool scalar = i == SEED || i == STOPS || expected == 1;
+        if (!status &&
+            (!fields[i].values || (scalar && i > BOX_UPPER && i != INITIAL_X && i != LINEAR_A &&
+                                   i != LINEAR_B && fields[i].n != expected)))
+            status = bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: entry '%s' is damaged", store->path,
+                                   fields[i].name);
+    }
+    size_t d = fields[BOX_LOWER].n, m = fields[CONSTRAINT_LOWER].n;
+    if (!status && (fields[BOX_UPPER].n != d || fields[CONSTRAINT_UPPER].n != m ||
+                    fields[LINEAR_A].n != fields[LINEAR_B].n * d ||
+                    (fields[INITIAL_X].n &&
+                     (double)fields[INITIAL_X].n != first(&fields[INITIAL_N]) * (double)d)))
+        status = bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: its entries do not agree in length",
+                               store->path);
+    if (status)
+        return status;
+    status = store_get_meta(store, "budget", &values, &n);
+    if (!status && n != 1)
+        status = bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: entry 'budget' is damaged", store->path);
+    if (!status)
+        *budget = values[0];
+    free(values);
+    return status;
+}
+
+bayesopt_status bayesopt_open(const char *path, bayesopt_input_constraint input_constraint,
+                              void *input_data, bayesopt **out)
+{
+    struct store *store;
+    struct field fields[FIELDS] = {{0}};
+    double budget = 0;
+    bool present = false;
+    bayesopt *bo = NULL;
+    bayesopt_status status = connect(path, 0, &store);
+    if (status)
+        return status;
+    status = classify(store, &present);
+    if (!status && !present)
+        status = bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: an empty database, not a store", path);
+    if (!status)
+        status = read_fields(store, fields, &budget);
+    if (!status)
+        status = create_from_fields(fields, budget, input_constraint, input_data, &bo);
+    problem_fields_free(fields);
+    sqlite3_close(store->db);
+    free(store->path);
+    free(store);
+    if (!status)
+        status = bayesopt_open_store(bo, path);
+    if (status) {
+        bayesopt_free(bo);
+        return status;
+    }
+    *out = bo;
+    return BAYESOPT_OK;
+}
