@@ -17,8 +17,12 @@ extern "C" {
 NURBS_API nurbs_status nurbs_patches_read_json(const char *path, nurbs_patches **patches);
 NURBS_API nurbs_status nurbs_patches_write_json(const nurbs_patches *patches, const char *path);
 
-/** IGES 5.3: entities 128 (and their transformations 124) are read, lengths converted to metres;
- * report (NULL: not wanted) is filled with counts of what was read and skipped. Writes 128. */
+/** IGES 5.3: all entities 128 are read as patches, with their transformations 124, lengths converted
+ * to metres. Unclamped knots are clamped, a stated range inside the knots is cut out, equal weights
+ * are dropped: all exact. Faces (144/142, 143/141, 510/508) are inspected: where a loop cuts a
+ * surface the whole surface is kept and the report says so.
+ * @param report  NULL: not wanted; filled with counts of all entities and what was changed
+ * The writer writes entities 128 in metres with as many digits as restore every bit. */
 NURBS_API nurbs_status nurbs_patches_read_iges(const char *path, nurbs_patches **patches,
                                                char *report, size_t report_size);
 NURBS_API nurbs_status nurbs_patches_write_iges(const nurbs_patches *patches, const char *path);
@@ -29,6 +33,9 @@ NURBS_API nurbs_status nurbs_patches_write_stl(const nurbs_patches *patches, int
                                                const char *path);
 NURBS_API nurbs_status nurbs_patches_write_vtu(const nurbs_patches *patches, int parts,
                                                const char *path);
+
+/** Control points of all patches: CSV with header patch,i,j,x,y,z,weight (counted from 0). */
+NURBS_API nurbs_status nurbs_patches_write_points(const nurbs_patches *patches, const char *path);
 
 /** By extension: .json .igs .iges for reading; also .stl .vtu .csv (control points) for writing. */
 NURBS_API nurbs_status nurbs_patches_read(const char *path, nurbs_patches **patches);

@@ -1,0 +1,81 @@
+/* IGES 5.3 files: the fixed records and free-format parameters behind nurbs_patches_read_iges(). */
+#ifndef NURBS_IGES_H
+#define NURBS_IGES_H
+
+#include <nurbs/curve.h>
+#include <nurbs/status.h>
+#include <nurbs/surface.h>
+
+/* Free-format parameters of one record: pieces of text, blanks around them removed. */
+typedef struct iges_record {
+    size_t count;
+    const char **field; /* not terminated */
+    size_t *length;
+} iges_record;
+
+typedef struct iges_entity {
+    int type, form;
+    size_t transformation; /* index of a 124 plus 1; 0: none */
+    int dependent;         /* the two digits of "subordinate" */
+    size_t first_line;     /* of its parameters, counted from 0 */
+    iges_record record;
+} iges_entity;
+
+typedef struct iges_file {
+    const char *path;        /* borrowed */
+    char *text, *parameters; /* the file; the parameter section in lines of 64 columns */
+    size_t parameter_lines;
+    iges_record global;
+    size_t count;
+    iges_entity *entity;
+    char parameter_delimiter, record_delimiter;
+    double metres; /* per unit of the file */
+    char *report;  /* fills report_size bytes; grows by iges_report() */
+    size_t report_size, report_used;
+} iges_file;
+
+nurbs_status iges_open(const char *path, iges_file *file);
+void iges_close(iges_file *file);
+
+/* Appends a sentence to the report; silently cut when it is full. */
+__attribute__((format(printf, 2, 3))) void iges_report(iges_file *file, const char *format, ...);
+
+/* Directory entry number as other programs show it: 1, 3, 5 ... */
+static inline size_t iges_number(size_t index)
+{
+    return 2 * index + 1;
+}
+
+/* Parameter k of an entity (0: the one after the entity type). An absent or empty one is the
+ * default. */
+nurbs_status iges_real(const iges_file *file, size_t entity, size_t k, double missing,
+                       double *value);
+nurbs_status iges_integer(const iges_file *file, size_t entity, size_t k, long missing,
+                          long *value);
+/* A pointer to an entity; *index gets its index. */
+nurbs_status iges_pointer(const iges_file *file, size_t entity, size_t k, size_t *index);
+/* Number of parameters after the entity type. */
+size_t iges_parameters(const iges_file *file, size_t entity);
+
+/* Row by row matrix and shift (in metres) of an entity's transformation chain. */
+nurbs_status iges_transformation(const iges_file *file, size_t entity, double matrix[9],
+                                 double shift[3]);
+
+/* Entity 128 in metres, transformed, clamped, cut to its stated range. */
+nurbs_status iges_surface(iges_file *file, size_t entity, nurbs_surface **surface);
+
+/* Entities 126, 110 and 100 as one curve; scale 1 for curves in parameter space, else metres.
+ * Transformed. */
+nurbs_status iges_curve(iges_file *file, size_t entity, double scale, nurbs_curve **curve);
+
+/* A face: entity 144, 143 or 510. */
+typedef enum iges_trim {
+    IGES_WHOLE,   /* its loops run along the boundary of the surface */
+    IGES_TRIMMED, /* a loop cuts the surface */
+    IGES_UNKNOWN  /* no curves in parameter space */
+} iges_trim;
+int iges_is_face(int type);
+/* Index of the base surface of a face, and what its loops do to it. */
+nurbs_status iges_face(iges_file *file, size_t entity, size_t *surface, iges_trim *trim);
+
+#endif
