@@ -119,13 +119,14 @@ static void failures_are_learnt(void)
     size_t late_failures = 0;
     while (bayesopt_ask(bo, 1, x, &id) == BAYESOPT_OK) {
         if (x[0] < 0.5 && x[1] < 0.5) {
-            late_failures += id > 30;
+            late_failures += id > 30 && fmax(x[0], x[1]) < 0.4;
             CU_ASSERT_EQUAL(bayesopt_tell_failed(bo, id, "folded"), BAYESOPT_OK);
         } else {
             CU_ASSERT_EQUAL(bayesopt_tell(bo, id, bowl(2, x), NULL), BAYESOPT_OK);
         }
     }
-    CU_ASSERT(late_failures < 20);
+    /* The best place is on the edge of the failures: trials just beyond it go on, deep ones stop. */
+    CU_ASSERT(late_failures < 5);
     CU_ASSERT_EQUAL(bayesopt_best(bo, x, &f, NULL), BAYESOPT_OK);
     /* min((0.2)^2 + 0, 0 + 2 (0.2)^2) on the feasible side */
     CU_ASSERT(f < 0.0405);
