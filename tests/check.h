@@ -1,5 +1,5 @@
-/* The few lines every CUnit program of the suite shares: a table of tests, a relative comparison that
- * prints both numbers when it fails, and a main that returns non-zero on any failure. */
+/* The few lines every CUnit program of the suite shares: a table of tests, a relative comparison
+ * that prints both numbers when it fails, and a main that returns non-zero on any failure. */
 #ifndef TESTS_CHECK_H
 #define TESTS_CHECK_H
 
@@ -8,8 +8,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* |actual - expected| <= tol * max(1, |expected|) would hide errors of small values; the scale is the
- * caller's to choose. NaN fails. */
+/* |actual - expected| <= tol * max(1, |expected|) would hide errors of small values; the scale is
+ * the caller's to choose. NaN fails. */
 static inline void check_close(double actual, double expected, double tol, const char *what,
                                const char *file, unsigned line)
 {

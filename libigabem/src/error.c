@@ -8,7 +8,7 @@ static _Thread_local char last_error[512];
 const char *igabem_status_string(igabem_status status)
 {
     switch (status) {
-#define IGABEM_STATUS_TEXT(name, value, text)                                                       \
+#define IGABEM_STATUS_TEXT(name, value, text)                                                      \
     case name:                                                                                     \
         return text;
         IGABEM_STATUS_LIST(IGABEM_STATUS_TEXT)
