@@ -87,7 +87,8 @@ igabem_status influence_create(const struct density *density, const struct mesh 
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for quadrature nodes");
     influence->density = density;
     influence->mesh = mesh;
-    influence->tolerance = tolerance;
+    influence->tolerance = 0.1 * tolerance;
+    influence->wave_tolerance = tolerance;
     influence->threads = threads;
     size_t doubles = 0;
     for (size_t e = 0; e < mesh->n; e++)

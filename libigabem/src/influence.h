@@ -21,12 +21,15 @@ struct influence {
     const struct mesh *mesh;
     struct gauss gauss;
     double tolerance;                /* absolute, of one element's influence */
+    double wave_tolerance;           /* relative, of the wave part */
     double (*centre)[3], (*half)[2]; /* of the elements */
     struct regular_rule *regular;    /* [element][class along u][class along v] */
     double *storage;
     int threads;
 };
 
+/* tolerance: of the resistance; errors of a few dozen elements near a point add up, so each gets a
+ * tenth of it. */
 igabem_status influence_create(const struct density *density, const struct mesh *mesh,
                                double tolerance, int threads, struct influence **influence);
 void influence_free(struct influence *influence);

@@ -27,10 +27,10 @@ struct wave {
     const struct influence *influence;
     const struct line *line;
     struct spectrum *spectrum;
-    size_t sets;   /* cos(eta) alone, or cos and sin without symmetry */
-    size_t width;  /* 2 sets n: length of a moment */
-    double k0, x0; /* phases are measured from x0 */
-    double extent;
+    size_t sets;          /* cos(eta) alone, or cos and sin without symmetry */
+    size_t width;         /* 2 sets n: length of a moment */
+    double k0, x0;        /* phases are measured from x0 */
+    double extent, depth; /* of all sources, along x; of the shallowest source */
     struct wave_rule rule;
     size_t filters;
     const double *cutoff;
@@ -66,10 +66,14 @@ WAVE_INLINE void node_waves(const struct wave *wave, size_t angles, double x, do
     }
 }
 
-/* Number of leading angles that reach a depth. */
+/* Number of leading angles that reach down and up again over a path of this depth, to a hundredth
+ * of the tolerance because they are many. */
 static size_t angles_at(const struct wave *wave, double depth)
 {
-    double reach = wave_reach(&wave->rule, depth);
+    struct wave_rule rule = wave->rule;
+    rule.clearance = 0.0;
+    rule.tolerance *= 0.01;
+    double reach = wave_reach(&rule, depth);
     size_t n = wave->spectrum->n;
     while (n > 0 && wave->spectrum->t[n - 1] > reach)
         n--;
@@ -82,7 +86,7 @@ static void accumulate(const struct wave *wave, const struct nodes *nodes, size_
 {
     size_t n = wave->spectrum->n;
     for (size_t i = 0; i < nodes->n; i++) {
-        size_t angles = angles_at(wave, -nodes->z[i]);
+        size_t angles = angles_at(wave, wave->rule.clearance - nodes->z[i]);
         node_waves(wave, angles, nodes->x[i], nodes->y[i], nodes->z[i], buffer);
         for (size_t a = 0; a < functions; a++) {
             double strength = f[i * functions + a];
@@ -167,7 +171,7 @@ static igabem_status source_moments(const struct wave *wave, struct source *sour
 static size_t point_factors(const struct wave *wave, const double p[3], double *factor)
 {
     const struct spectrum *spectrum = wave->spectrum;
-    size_t n = spectrum->n, width = wave->width, angles = angles_at(wave, -p[2]);
+    size_t n = spectrum->n, width = wave->width, angles = angles_at(wave, wave->depth - p[2]);
     double k0 = wave->k0, scale = k0 * k0 / (4.0 * PI) * (wave->sets == 1 ? 16.0 : 8.0);
     for (size_t j = 0; j < angles; j++) {
         double t = spectrum->t[j], s = spectrum->root[j], sine, cosine, sine_y, cosine_y;
@@ -235,11 +239,12 @@ static void product(const struct wave *wave, const double *factor, size_t angles
 /* Velocities at the point due to nodes ahead of it: fills k[filter * 3 + component][node]. */
 WAVE_MULTIVERSION
 static void direct_sum(const struct wave *wave, const double *factor, size_t point_angles,
-                       const struct nodes *nodes, double *buffer, double *k)
+                       double clearance, const struct nodes *nodes, double *buffer, double *k)
 {
     size_t n = wave->spectrum->n, width = wave->width;
     for (size_t i = 0; i < nodes->n; i++) {
-        size_t angles = point_angles;
+        size_t angles = angles_at(wave, clearance - nodes->z[i]);
+        angles = angles < point_angles ? angles : point_angles;
         node_waves(wave, angles, nodes->x[i], nodes->y[i], nodes->z[i], buffer);
         for (size_t row = 0; row < 3 * wave->filters; row++) {
             double sum = 0.0;
@@ -279,7 +284,7 @@ static igabem_status straddling(const struct wave *wave, size_t point, const dou
         return IGABEM_OK;
     if (work->nodes.failed || !reserve(work, 3 * wave->filters * n))
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for wave sums");
-    direct_sum(wave, factor, angles, &work->nodes, work->buffer, work->f);
+    direct_sum(wave, factor, angles, -p[2], &work->nodes, work->buffer, work->f);
     for (size_t f = 0; f < wave->filters; f++)
         nodes_scatter(&work->nodes, 3, work->f + 3 * f * n, n, rows + f * filter_stride,
                       density->n);
@@ -424,6 +429,7 @@ static igabem_status make_spectrum(struct wave *wave)
         return status;
     wave->x0 = 0.5 * (x[0] + x[1]);
     wave->extent = x[1] - x[0];
+    wave->depth = depth;
     wave->rule.k0 = wave->k0;
     wave->rule.t_max = t_max;
     wave->rule.clearance = clearance;
@@ -484,7 +490,7 @@ igabem_status influence_wave(const struct influence *influence, const struct lin
                         .k0 = k0,
                         .filters = filters,
                         .cutoff = cutoff};
-    wave.rule.tolerance = influence->tolerance;
+    wave.rule.tolerance = influence->wave_tolerance;
     igabem_status status = make_spectrum(&wave);
     if (status == IGABEM_OK)
         status = make_sources(&wave);
