@@ -166,27 +166,18 @@ static int from_bow(const void *a, const void *b)
 }
 
 /* Sources ahead of x in the pieces that x cuts. */
-static int cut_sources(const struct field *field, double x, struct point_set *ahead)
+static int sources_ahead(const struct point_set *cut, double x, struct point_set *ahead)
 {
-    struct point_set all = {0};
-    int ok = 1;
     point_set_clear(ahead);
-    for (size_t i = 0; ok && i < field->pieces->n; i++) {
-        const struct wave_piece *piece = &field->pieces->piece[i];
-        if (piece->lower[0] >= x || piece->upper[0] <= x)
-            continue;
-        point_set_clear(&all);
-        ok = wave_piece_sources(field->pieces, i, x, &all);
-        for (size_t j = 0; ok && j < all.n; j++)
-            if (all.x[j] > x)
-                ok = point_set_add(ahead, all.x[j], all.y[j], all.z[j], all.q[j]);
-    }
-    point_set_free(&all);
-    return ok;
+    for (size_t j = 0; j < cut->n; j++)
+        if (cut->x[j] > x && !point_set_add(ahead, cut->x[j], cut->y[j], cut->z[j], cut->q[j]))
+            return 0;
+    return 1;
 }
 
 struct line_work {
     double *even, *odd;
+    struct wave_cut cut;
     struct point_set ahead;
 };
 
@@ -197,7 +188,8 @@ static igabem_status elevate_line(struct field *field, struct line_work *work, s
     const igabem_solution *solution = field->solution;
     double x = lines[0].x, k0 = solution->k0;
     double scale = solution->speed / solution->options.gravity * k0 * k0 / (4.0 * PI);
-    if (!cut_sources(field, x, &work->ahead))
+    if (!wave_cut_line(field->pieces, x, &work->cut) ||
+        !sources_ahead(&work->cut.set, x, &work->ahead))
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for the sources near x = %g", x);
     wave_march_line(field->march, x, &work->ahead, work->even, work->odd);
     igabem_status status = IGABEM_OK;
@@ -211,8 +203,9 @@ static igabem_status elevate_line(struct field *field, struct line_work *work, s
             zeta[at] = NAN;
             if (inside_waterplane(&field->waterplane, x, y[at]))
                 continue;
-            igabem_status failed = wave_tree_local(field->tree, k0, solution->density->symmetric, x,
-                                                   y[at], &scratch, &local);
+            igabem_status failed =
+                wave_tree_local(field->tree, &work->cut, k0, solution->density->symmetric, x, y[at],
+                                &scratch, &local);
             if (failed) {
 #pragma omp critical(igabem_elevation)
                 status = failed;
@@ -229,28 +222,43 @@ static igabem_status elevate_line(struct field *field, struct line_work *work, s
     return IGABEM_OK;
 }
 
+/* Adds to the running sums the pieces that now lie ahead of x, from the next one on. */
+static int advance(struct field *field, double x, size_t *next, struct point_set *batch)
+{
+    point_set_clear(batch);
+    for (; *next < field->pieces->n; ++*next) {
+        size_t piece = field->by_bow[*next];
+        if (field->pieces->piece[piece].lower[0] < x)
+            break;
+        for (size_t j = field->first[piece]; j < field->first[piece + 1]; j++)
+            if (!point_set_add(batch, field->set.x[j], field->set.y[j], field->set.z[j],
+                               field->set.q[j]))
+                return 0;
+    }
+    wave_march_add(field->march, batch, 0, batch->n);
+    return 1;
+}
+
 static igabem_status march(struct field *field, size_t n, const struct line *lines, const double *y,
                            double *zeta)
 {
-    struct line_work work = {
-        malloc(field->march->n * sizeof(double)), malloc(field->march->n * sizeof(double)), {0}};
-    igabem_status status = IGABEM_OK;
-    if (!work.even || !work.odd)
+    struct line_work work = {.even = malloc(field->march->n * sizeof(double)),
+                             .odd = malloc(field->march->n * sizeof(double))};
+    igabem_status status = wave_cut_create(field->pieces->n, &work.cut);
+    if (!status && (!work.even || !work.odd))
         status = igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu wave angles", field->march->n);
     size_t next = 0; /* pieces not yet in the running sums */
     for (size_t begin = 0, end; !status && begin < n; begin = end) {
         for (end = begin + 1; end < n && lines[end].x == lines[begin].x; end++)
             continue;
-        for (; next < field->pieces->n; next++) {
-            size_t piece = field->by_bow[next];
-            if (field->pieces->piece[piece].lower[0] < lines[begin].x)
-                break;
-            wave_march_add(field->march, &field->set, field->first[piece], field->first[piece + 1]);
-        }
-        status = elevate_line(field, &work, end - begin, lines + begin, y, zeta);
+        if (!advance(field, lines[begin].x, &next, &work.ahead))
+            status = igabem_fail(IGABEM_ERROR_MEMORY, "no memory for the sources of the hull");
+        else
+            status = elevate_line(field, &work, end - begin, lines + begin, y, zeta);
     }
     free(work.even);
     free(work.odd);
+    wave_cut_free(&work.cut);
     point_set_free(&work.ahead);
     return status;
 }

@@ -208,22 +208,54 @@ static int add_range(const struct point_set *from, size_t begin, size_t end, str
     return 1;
 }
 
+igabem_status wave_cut_create(size_t pieces, struct wave_cut *cut)
+{
+    *cut = (struct wave_cut){{0}, calloc(pieces, sizeof(size_t)), calloc(pieces, sizeof(size_t))};
+    if (cut->first && cut->last)
+        return IGABEM_OK;
+    wave_cut_free(cut);
+    return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu pieces", pieces);
+}
+
+void wave_cut_free(struct wave_cut *cut)
+{
+    point_set_free(&cut->set);
+    free(cut->first);
+    free(cut->last);
+    *cut = (struct wave_cut){{0}, NULL, NULL};
+}
+
+int wave_cut_line(const struct wave_pieces *pieces, double x, struct wave_cut *cut)
+{
+    point_set_clear(&cut->set);
+    for (size_t i = 0; i < pieces->n; i++) {
+        const struct wave_piece *piece = &pieces->piece[i];
+        cut->first[i] = cut->set.n;
+        if (piece->lower[0] < x && x < piece->upper[0] &&
+            !wave_piece_sources(pieces, i, x, &cut->set))
+            return 0;
+        cut->last[i] = cut->set.n;
+    }
+    return 1;
+}
+
 /* Gathers the sources that stand for the tree as seen from (x, y, 0). */
-static int gather(const struct wave_tree *tree, int index, double x, double y,
-                  struct point_set *set)
+static int gather(const struct wave_tree *tree, const struct wave_cut *cut, int index, double x,
+                  double y, struct point_set *set)
 {
     const struct node *node = &tree->node[index];
-    int cut = x > node->lower[0] && x < node->upper[0];
-    if (!cut && node_distance(node, x, y) > SEPARATION * half_diagonal(node))
+    int divided = x > node->lower[0] && x < node->upper[0];
+    if (!divided && node_distance(node, x, y) > SEPARATION * half_diagonal(node))
         return add_range(&tree->proxy, node->first_proxy, node->first_proxy + node->proxies, set);
     if (node->child[0] >= 0)
-        return gather(tree, node->child[0], x, y, set) && gather(tree, node->child[1], x, y, set);
+        return gather(tree, cut, node->child[0], x, y, set) &&
+               gather(tree, cut, node->child[1], x, y, set);
     size_t piece = tree->order[node->begin];
     const struct wave_piece *p = &tree->pieces->piece[piece];
     if (wave_piece_distance(p, x, y) <= NEAR * p->diagonal)
         return wave_piece_near_sources(tree->pieces, piece, x, y, set);
-    if (cut)
-        return wave_piece_sources(tree->pieces, piece, x, set);
+    if (divided)
+        return add_range(&cut->set, cut->first[piece], cut->last[piece], set);
     return add_range(tree->set, tree->first[piece], tree->first[piece + 1], set);
 }
 
@@ -237,8 +269,9 @@ static void to_offsets(struct point_set *set, double k0, double x, double y)
     }
 }
 
-igabem_status wave_tree_local(const struct wave_tree *tree, double k0, int symmetric, double x,
-                              double y, struct point_set *scratch, double *sum)
+igabem_status wave_tree_local(const struct wave_tree *tree, const struct wave_cut *cut, double k0,
+                              int symmetric, double x, double y, struct point_set *scratch,
+                              double *sum)
 {
     enum { BATCH = 256 };
     double gradient[BATCH];
@@ -246,7 +279,7 @@ igabem_status wave_tree_local(const struct wave_tree *tree, double k0, int symme
     for (int side = 0; side < (symmetric ? 2 : 1); side++) {
         double at = side ? -y : y;
         point_set_clear(scratch);
-        if (!gather(tree, 0, x, at, scratch))
+        if (!gather(tree, cut, 0, x, at, scratch))
             return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for the sources near (%g, %g)", x,
                                y);
         to_offsets(scratch, k0, x, at);

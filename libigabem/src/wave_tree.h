@@ -15,10 +15,26 @@ igabem_status wave_tree_create(const struct wave_pieces *pieces, const struct po
                                const size_t *first, struct wave_tree **tree);
 void wave_tree_free(struct wave_tree *tree);
 
+/* The pieces that a line x cuts, with their sources divided there; shared by all points of the
+ * line.
+ */
+struct wave_cut {
+    struct point_set set;
+    size_t *first, *last; /* [pieces] range in the set; empty where the line does not cut */
+};
+
+/* Makes room for the pieces; frees. */
+igabem_status wave_cut_create(size_t pieces, struct wave_cut *cut);
+void wave_cut_free(struct wave_cut *cut);
+
+/* Fills the cut of the line x; returns 0 when out of memory. */
+int wave_cut_line(const struct wave_pieces *pieces, double x, struct wave_cut *cut);
+
 /* Sum q N_X(k0 (x - xi), k0 (y - eta), k0 zeta) over all sources and, when symmetric, their mirror
- * images. Pieces that x cuts or that are near the point are integrated anew; scratch is reused
- * between calls of one thread. */
-igabem_status wave_tree_local(const struct wave_tree *tree, double k0, int symmetric, double x,
-                              double y, struct point_set *scratch, double *sum);
+ * images. Pieces that x cuts come from cut, those near the point are integrated anew; scratch is
+ * reused between calls of one thread. */
+igabem_status wave_tree_local(const struct wave_tree *tree, const struct wave_cut *cut, double k0,
+                              int symmetric, double x, double y, struct point_set *scratch,
+                              double *sum);
 
 #endif
