@@ -45,7 +45,7 @@ static void test_derivatives_of_any_order(void)
 {
     uint64_t state = 2;
     for (int p = 1; p <= 9; p++) {
-        double knots[64], high[10 * 10], low[10 * 10];
+        double knots[64], high[11 * 10], low[10 * 10];
         const size_t n = (size_t)p + 7;
         random_knots(&state, p, n, 0, knots);
         for (int k = 0; k < 20; k++) {

@@ -400,7 +400,7 @@ static void test_bad_input_is_named(void)
     uint64_t state = 41;
     const int degree[2] = {3, 3};
     const size_t size[2] = {6, 6};
-    nurbs_surface *s = random_surface(&state, degree, size, 0, 0), *r;
+    nurbs_surface *s = random_surface(&state, degree, size, 0, 0), *r, *low;
     nurbs_curve *c = random_curve(&state, 2, 5, 0, 0), *q;
     refused(nurbs_curve_insert(c, 1, (const double[]){0.0}, &q), "knot 0 to insert");
     refused(nurbs_curve_insert(c, 1, (const double[]){NAN}, &q), "nan");
@@ -416,7 +416,8 @@ static void test_bad_input_is_named(void)
     refused(nurbs_surface_insert(s, 1, 1, NULL, &r), "NULL");
     refused(nurbs_surface_refine(s, 0, &r), "0 parts");
     refused(nurbs_surface_part(s, 0, -1.0, 0.5, &r), "part from -1");
-    refused(nurbs_surface_split(s, 0, 1.0, &r, &r), "part from 1");
+    refused(nurbs_surface_split(s, 0, 1.0, &low, &r), "part from 1");
+    CU_ASSERT_PTR_NULL(low);
     refused(nurbs_surface_transform(s, NULL, (const double[]){0, NAN, 0}, &r), "shift entry 1");
     refused(nurbs_surface_iso_curve(s, 0, 2.0, &q), "u = 2");
     refused(nurbs_surface_swap(NULL, &r), "surface is NULL");

@@ -17,7 +17,8 @@ extern "C" {
 enum {
     NURBS_KEEP_EDGES =
         1, /**< the four boundary curves keep their planes: an edge that lies in y = 0 or
-                z = 0 (any coordinate plane) stays in it exactly, corners stay exactly */
+                z = 0 (any coordinate plane) stays in it exactly, and control points that lie on
+                one side of that plane stay there; corners stay exactly in any case */
     NURBS_KEEP_KINKS = 2 /**< knots of multiplicity >= degree are not touched */
 };
 
@@ -29,6 +30,16 @@ NURBS_API nurbs_status nurbs_curve_simplify(const nurbs_curve *curve, double tol
 NURBS_API nurbs_status nurbs_surface_simplify(const nurbs_surface *surface, double tolerance,
                                               unsigned flags, nurbs_surface **result,
                                               double *bound);
+
+/** Removes an interior knot (exactly as stored) `times` times whatever the distance, both end
+ * points (corners) kept: least squares, then the largest distance lowered by alternating
+ * projections. bound (NULL allowed) is filled as above; it is of the order of rounding when the
+ * knot was redundant. Errors: the knot is not that often inside the domain. */
+NURBS_API nurbs_status nurbs_curve_remove(const nurbs_curve *curve, double knot, int times,
+                                          nurbs_curve **result, double *bound);
+NURBS_API nurbs_status nurbs_surface_remove(const nurbs_surface *surface, int direction,
+                                            double knot, int times, nurbs_surface **result,
+                                            double *bound);
 
 #ifdef __cplusplus
 }
