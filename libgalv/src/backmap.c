@@ -91,7 +91,7 @@ static galv_status set_target(search *s, const double *u)
         return galv_fail(GALV_ERROR_MEMORY, "displacement of %zu points", model->points);
     galv_status status = galv_reconstruct(model, u, d);
     double whole = 0, part = 0;
-    for (size_t i = 0; i < model->coordinates && !status; i++)
+    for (size_t i = 0; i < 3 * model->points && !status; i++)
         whole += (model->weights ? model->weights[i] : 1) * d[i] * d[i];
     for (size_t k = 0; k < s->stored && !status; k++) {
         size_t i = s->plan->index[k];
@@ -258,6 +258,8 @@ galv_status galv_backmap(const galv_model *model, const galv_shape *shape, const
         return galv_fail(GALV_ERROR_ARGUMENT,
                          "the shape has %zu parameters, the model was built from %zu",
                          galv_shape_parameters(shape), model->parameters);
+    if (model->parameters == 0)
+        return galv_fail(GALV_ERROR_ARGUMENT, "the model was built from data without parameters");
     search s;
     galv_status status = search_start(&s, model, shape);
     if (status)

@@ -1,5 +1,6 @@
 /* The covariance side: the active x active matrix of eq. 6, accumulated block by block. */
 #include "error.h"
+#include "rank_update.h"
 #include "spectrum.h"
 
 #include <cblas.h>
@@ -36,11 +37,10 @@ static galv_status accumulate(galv_stream *stream, covariance *matrix, galv_sums
         if (status)
             return status;
         galv_sums_add(sums, stream, count);
-        if (matrix->order)
-            cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, (blasint)matrix->order,
-                        (blasint)count, 1 / (double)samples, stream->rows, (blasint)matrix->order,
-                        1, matrix->c, (blasint)matrix->order);
-        status = galv_stream_report(stream, first + count);
+        status =
+            galv_rank_update(matrix->order, count, 1 / (double)samples, stream->rows, matrix->c);
+        if (!status)
+            status = galv_stream_report(stream, first + count);
         if (status)
             return status;
     }

@@ -23,7 +23,9 @@ typedef struct latent_pass {
     double energy[GROUPS];
     size_t count[GROUPS];
     double mean_square; /* |mean|^2 */
-    double *x;          /* parameters of a sample */
+    double appended;    /* energy of the appended quantities */
+    size_t nappended, *places;
+    double *x; /* parameters of a sample */
     double *sum_x, *sum_u, *sum_xu, *sum_uu;
 } latent_pass;
 
@@ -33,6 +35,7 @@ static void latent_free(latent_pass *pass)
     free(pass->v);
     free(pass->sorted);
     free(pass->moment);
+    free(pass->places);
     free(pass->x);
     free(pass->sum_x);
     free(pass->sum_u);
@@ -41,10 +44,9 @@ static void latent_free(latent_pass *pass)
 }
 
 static galv_status latent_start(latent_pass *pass, const galv_stream *stream,
-                                const galv_spectrum *spectrum, size_t pairs,
-                                const galv_model *model)
+                                const galv_spectrum *spectrum, const galv_model *model)
 {
-    size_t n = model->parameters, m = model->modes;
+    size_t n = model->parameters, m = model->modes, pairs = model->kept;
     *pass = (latent_pass){.spectrum = spectrum, .pairs = pairs};
     pass->offset = calloc(pairs, sizeof(double));
     pass->v = malloc(pairs * stream->block * sizeof(double));
@@ -59,6 +61,12 @@ static galv_status latent_start(latent_pass *pass, const galv_stream *stream,
         !pass->sum_u || !pass->sum_xu || !pass->sum_uu) {
         latent_free(pass);
         return galv_fail(GALV_ERROR_MEMORY, "projection of a block on %zu eigenvectors", pairs);
+    }
+    galv_status status =
+        galv_latent_appended(stream, model->points, &pass->places, &pass->nappended);
+    if (status) {
+        latent_free(pass);
+        return status;
     }
     if (model->centred) {
         blasint active = (blasint)spectrum->active;
@@ -93,17 +101,23 @@ static void add_moments(latent_pass *pass, const galv_stream *stream, const galv
     }
 }
 
+static void add_appended(latent_pass *pass, const galv_stream *stream, const galv_model *model,
+                         size_t count)
+{
+    for (size_t r = 0; r < count; r++)
+        for (size_t i = 0; i < pass->nappended; i++) {
+            size_t a = pass->places[i];
+            double value = stream->rows[r * stream->active + a];
+            value -= model->centred ? pass->spectrum->mean[a] : 0;
+            pass->appended += value * value;
+        }
+}
+
 static void add_sample(latent_pass *pass, galv_model *model, const galv_shape_source *parameters,
                        size_t r, const double *u)
 {
     size_t n = model->parameters, m = model->modes;
     memcpy(model->latent + r * m, u, m * sizeof *u);
-    for (size_t k = 0; k < m; k++) {
-        if (r == 0 || u[k] < model->lower[k])
-            model->lower[k] = u[k];
-        if (r == 0 || u[k] > model->upper[k])
-            model->upper[k] = u[k];
-    }
     if (!parameters)
         return;
     galv_shape_source_parameters(parameters, r, pass->x);
@@ -137,6 +151,7 @@ static galv_status project_samples(latent_pass *pass, galv_stream *stream,
             add_sample(pass, model, parameters, first + r, v);
         }
         add_moments(pass, stream, model, first, count);
+        add_appended(pass, stream, model, count);
         status = galv_stream_report(stream, first + count);
         if (status)
             return status;
@@ -248,14 +263,67 @@ static galv_status estimate_confidence(const latent_pass *pass, galv_model *mode
     return status;
 }
 
-galv_status galv_latent_pass(galv_stream *stream, const galv_spectrum *spectrum, size_t pairs,
+void galv_latent_box(galv_model *model)
+{
+    size_t m = model->modes;
+    for (size_t k = 0; k < m; k++) {
+        model->lower[k] = INFINITY;
+        model->upper[k] = -INFINITY;
+    }
+    for (size_t r = 0; r < model->samples; r++)
+        for (size_t k = 0; k < m; k++) {
+            model->lower[k] = fmin(model->lower[k], model->latent[r * m + k]);
+            model->upper[k] = fmax(model->upper[k], model->latent[r * m + k]);
+        }
+}
+
+galv_status galv_latent_appended(const galv_stream *stream, size_t points, size_t **places,
+                                 size_t *count)
+{
+    *count = 0;
+    *places = malloc((stream->active + 1) * sizeof **places);
+    if (!*places)
+        return galv_fail(GALV_ERROR_MEMORY, "places of the appended quantities");
+    for (size_t a = 0; points && a < stream->active; a++)
+        if (stream->source->index[stream->place[a]] >= 3 * points)
+            (*places)[(*count)++] = a;
+    return GALV_OK;
+}
+
+/* Reconstructing by mode k leaves lambda_k |w_k|^2 less of the displacements' variance, w_k the
+ * part of the mode that is displacement: sum over modes of C w_k = lambda_k w_k. */
+void galv_latent_geometry(const galv_spectrum *spectrum, size_t count, const size_t *places,
+                          double trace_appended, galv_model *model)
+{
+    model->trace_geometry = model->trace - trace_appended;
+    model->retained_geometry = model->retained;
+    if (count == 0)
+        return;
+    double sum = 0;
+    for (size_t k = 0; k < model->modes; k++) {
+        double part = 1;
+        for (size_t i = 0; i < count; i++) {
+            double component = spectrum->vectors[k * spectrum->active + places[i]];
+            part -= component * component;
+        }
+        sum += model->eigenvalues[k] * part;
+    }
+    model->retained_geometry = model->trace_geometry > 0 ? fmin(sum / model->trace_geometry, 1) : 0;
+}
+
+galv_status galv_latent_pass(galv_stream *stream, const galv_spectrum *spectrum,
                              const galv_shape_source *parameters, galv_model *model)
 {
     latent_pass pass;
-    galv_status status = latent_start(&pass, stream, spectrum, pairs, model);
+    galv_status status = latent_start(&pass, stream, spectrum, model);
     if (status)
         return status;
     status = project_samples(&pass, stream, parameters, model);
+    if (!status) {
+        galv_latent_box(model);
+        galv_latent_geometry(spectrum, pass.nappended, pass.places,
+                             pass.appended / (double)model->samples, model);
+    }
     if (!status && parameters)
         status = regress(&pass, model);
     if (!status)

@@ -7,27 +7,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-galv_model *galv_model_new(size_t samples, size_t points, size_t coordinates, size_t parameters,
-                           size_t modes, size_t spectrum, bool weighted)
+galv_model *galv_model_new(const galv_model *sizes, bool weighted)
 {
-    galv_model *model = calloc(1, sizeof *model);
+    galv_model *model = malloc(sizeof *model);
     if (!model)
         return NULL;
-    model->samples = samples;
-    model->points = points;
-    model->coordinates = coordinates;
-    model->parameters = parameters;
-    model->modes = modes;
-    model->spectrum = spectrum;
+    *model = *sizes;
+    size_t parameters = model->parameters, modes = model->modes, spectrum = model->spectrum;
     model->eigenvalues = calloc(spectrum, sizeof(double));
     model->residuals = calloc(spectrum, sizeof(double));
     model->mse = calloc(spectrum, sizeof(double));
-    model->vectors = calloc(coordinates * modes, sizeof(double));
-    model->mean = calloc(coordinates, sizeof(double));
-    model->parent = calloc(3 * points + 1, sizeof(double));
-    model->latent = calloc(samples * modes, sizeof(double));
+    model->vectors = calloc(model->coordinates * model->kept, sizeof(double));
+    model->mean = calloc(model->coordinates, sizeof(double));
+    model->parent = calloc(3 * model->points + 1, sizeof(double));
+    model->latent = calloc(model->samples * modes, sizeof(double));
     model->lower = calloc(2 * modes, sizeof(double));
-    model->weights = weighted ? calloc(coordinates, sizeof(double)) : NULL;
+    model->weights = weighted ? calloc(model->coordinates, sizeof(double)) : NULL;
     model->regression = parameters ? calloc(parameters * (1 + modes), sizeof(double)) : NULL;
     if (!model->eigenvalues || !model->residuals || !model->mse || !model->vectors ||
         !model->mean || !model->parent || !model->latent || !model->lower ||
@@ -99,6 +94,16 @@ double galv_model_retained(const galv_model *model)
 double galv_model_trace(const galv_model *model)
 {
     return model->trace;
+}
+
+double galv_model_retained_geometry(const galv_model *model)
+{
+    return model->retained_geometry;
+}
+
+double galv_model_truncation(const galv_model *model)
+{
+    return model->truncation;
 }
 
 const double *galv_model_eigenvalues(const galv_model *model)

@@ -6,14 +6,16 @@
 
 struct galv_model {
     size_t samples, points, coordinates, active, parameters, modes, spectrum;
+    size_t kept; /* vectors, modes <= kept <= spectrum: those after the modes let galv_extend() go
+                    on */
     bool centred;
     galv_method method;
     size_t passes;
-    double retained, trace;
+    double retained, retained_geometry, trace, trace_geometry, truncation;
     double *eigenvalues;   /* spectrum */
     double *residuals;     /* spectrum */
     double *mse;           /* spectrum */
-    double *vectors;       /* modes x coordinates: mode after mode */
+    double *vectors;       /* kept x coordinates: mode after mode */
     double *mean;          /* coordinates */
     double *parent;        /* 3 points */
     double *weights;       /* coordinates, or NULL: 1 */
@@ -24,7 +26,7 @@ struct galv_model {
     galv_confidence confidence;
 };
 
-galv_model *galv_model_new(size_t samples, size_t points, size_t coordinates, size_t parameters,
-                           size_t modes, size_t spectrum, bool weighted);
+/* Arrays of the sizes set in `sizes`, zero; weights when `weighted`. NULL when memory is short. */
+galv_model *galv_model_new(const galv_model *sizes, bool weighted);
 
 #endif

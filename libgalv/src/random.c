@@ -54,12 +54,12 @@ double galv_random_normal(galv_random *random)
 
 galv_sampling galv_uniform(size_t count, uint64_t seed)
 {
-    return (galv_sampling){.count = count, .seed = seed, .x = NULL};
+    return (galv_sampling){.count = count, .first = 0, .seed = seed, .x = NULL};
 }
 
 galv_sampling galv_samples(size_t count, const double *x)
 {
-    return (galv_sampling){.count = count, .seed = 0, .x = x};
+    return (galv_sampling){.count = count, .first = 0, .seed = 0, .x = x};
 }
 
 void galv_uniform_sample(uint64_t seed, size_t index, size_t n, const double *lower,

@@ -17,20 +17,25 @@ struct galv_source {
     galv_status (*rows)(galv_source *source, size_t first, size_t count, double *rows);
 };
 
-/* A source of N samples of a shape on fixed points. */
+/* A source of N samples of a shape on fixed points, with the appended quantities behind each row.
+ */
 typedef struct galv_shape_source {
     galv_source head;
     const galv_shape *shape;
     galv_sampling sampling;
     struct galv_plan *plan;
-    double *x; /* parameters of one block */
-    size_t room;
+    const galv_extra *extra; /* NULL: none */
+    size_t npoints;
+    const double *xyz;
+    double *parent; /* appended quantities of the parent */
+    size_t *index;  /* places of the stored coordinates and the appended quantities */
+    double *x;      /* parameters of one block */
 } galv_shape_source;
 
 /* block: the most rows asked for at once. */
 galv_status galv_shape_source_start(galv_shape_source *source, const galv_shape *shape,
                                     size_t npoints, const double *xyz, galv_sampling sampling,
-                                    size_t block);
+                                    const galv_extra *extra, size_t block);
 void galv_shape_source_end(galv_shape_source *source);
 /* Parameters of sample r, into x. */
 void galv_shape_source_parameters(const galv_shape_source *source, size_t r, double *x);
@@ -53,10 +58,13 @@ typedef struct galv_stream {
     double progress_done, progress_share;
 } galv_stream;
 
-/* weights: per point triples of the L coordinates, or NULL. */
+/* weights: one per coordinate, or NULL. */
 galv_status galv_stream_start(galv_stream *stream, galv_source *source, size_t block,
                               const double *weights, bool shifted);
 void galv_stream_end(galv_stream *stream);
+
+/* Gives places to all coordinates in which one of n stored rows differs from zero. */
+void galv_stream_expect(galv_stream *stream, size_t n, const double *rows);
 
 /* Reads rows first..first+count-1; `active` may have grown on return. When the stream is shifted,
  * sample 0 is the shift: it must be read first. */

@@ -13,7 +13,6 @@ typedef struct galv_goal {
     size_t modes;
     size_t spectrum; /* pairs to find at least */
     bool centre;
-    size_t workspace;
     uint64_t seed;
 } galv_goal;
 
@@ -39,6 +38,11 @@ galv_status galv_spectrum_covariance(galv_stream *stream, const galv_goal *goal,
 galv_status galv_spectrum_gram(galv_stream *stream, const galv_goal *goal, galv_spectrum *spectrum);
 galv_status galv_spectrum_randomised(galv_stream *stream, const galv_goal *goal,
                                      galv_spectrum *spectrum);
+
+/* For linear shapes; a shape with fewer moving coordinates than parameters goes to the covariance
+ * side. */
+galv_status galv_spectrum_factored(galv_stream *stream, const galv_shape_source *source,
+                                   const galv_goal *goal, galv_spectrum *spectrum);
 
 /* Modes that meet the goal, or 0 when `known` values do not reach it. */
 size_t galv_goal_modes(const galv_goal *goal, size_t known, const double *values, double trace);

@@ -40,6 +40,16 @@ void galv_stream_end(galv_stream *stream)
     *stream = (galv_stream){.source = NULL};
 }
 
+/* Gives places to the coordinates newly seen; those that have one are marked 3. */
+static void adopt(galv_stream *stream)
+{
+    for (size_t s = 0; s < stream->source->stored; s++)
+        if (stream->seen[s] == 1) {
+            stream->seen[s] = 3;
+            stream->place[stream->active++] = s;
+        }
+}
+
 /* A coordinate that is zero in all rows so far contributes nothing to any inner product with them,
  * so it can join when it first moves. */
 static void discover(galv_stream *stream, size_t count)
@@ -51,12 +61,16 @@ static void discover(galv_stream *stream, size_t count)
         for (size_t s = 0; s < stored; s++)
             seen[s] |= row[s] != 0;
     }
-    /* Those already in `place` are marked 3. */
-    for (size_t s = 0; s < stored; s++)
-        if (seen[s] == 1) {
-            seen[s] = 3;
-            stream->place[stream->active++] = s;
-        }
+    adopt(stream);
+}
+
+void galv_stream_expect(galv_stream *stream, size_t n, const double *rows)
+{
+    size_t stored = stream->source->stored;
+    for (size_t i = 0; i < n; i++)
+        for (size_t s = 0; s < stored; s++)
+            stream->seen[s] |= rows[i * stored + s] != 0;
+    adopt(stream);
 }
 
 static void pack_row(const galv_stream *stream, const double *raw, double *row)

@@ -195,7 +195,7 @@ static size_t widest_gap(const galv_model *model)
  * angle is that to the modes of very many samples. */
 static void test_confidence_matches_repetition(void)
 {
-    enum { BUILDS = 12, COUNT = 1500, MANY = 40000 };
+    enum { BUILDS = 12, COUNT = 1500, MANY = 15000 };
     galv_shape *shape = fixture_shape(GALV_RECURSIVE, 0.03);
     galv_options options;
     galv_options_init(&options);

@@ -116,6 +116,14 @@ static void test_randomised(void)
     compare(GALV_LINEAR, 400, GALV_METHOD_RANDOMISED, false, false, 1e-11);
 }
 
+static void test_factored(void)
+{
+    compare(GALV_LINEAR, 400, GALV_METHOD_FACTORED, false, false, 1e-14);
+    compare(GALV_LINEAR, 400, GALV_METHOD_FACTORED, true, true, 1e-14);
+    compare(GALV_LINEAR, 15, GALV_METHOD_FACTORED, true, false, 1e-14);
+    compare(GALV_LINEAR, 400, GALV_METHOD_AUTO, true, false, 1e-14);
+}
+
 static void test_centred(void)
 {
     compare(GALV_RECURSIVE, 300, GALV_METHOD_COVARIANCE, true, false, 1e-14);
@@ -158,7 +166,7 @@ static void test_linear_equals_closed_form(void)
     LAPACKE_dsyev(LAPACK_COL_MAJOR, 'N', 'L', n, a, n, values);
     galv_options options;
     galv_options_init(&options);
-    for (int method = GALV_METHOD_COVARIANCE; method <= GALV_METHOD_RANDOMISED; method++) {
+    for (int method = GALV_METHOD_COVARIANCE; method <= GALV_METHOD_FACTORED; method++) {
         galv_model *model = NULL;
         options.method = (galv_method)method;
         CU_ASSERT_EQUAL_FATAL(
@@ -295,6 +303,7 @@ static const struct check_case cases[] = {
     {"covariance side equals a dense SVD", test_covariance_side},
     {"Gram side equals a dense SVD", test_gram_side},
     {"randomised iteration equals a dense SVD", test_randomised},
+    {"functions of a linear shape equal a dense SVD", test_factored},
     {"centred samples", test_centred},
     {"weighted points", test_weighted},
     {"linear case equals the 27 x 27 closed form", test_linear_equals_closed_form},

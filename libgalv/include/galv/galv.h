@@ -16,6 +16,7 @@
 #define GALV_GALV_H
 
 #include <galv/model.h>
+#include <galv/moments.h>
 #include <galv/shape.h>
 #include <galv/status.h>
 

@@ -23,7 +23,9 @@ typedef struct galv_model galv_model;
 /** Where the parameter vectors x_r, r = 0..count-1, come from. Make one with galv_uniform() or
  * galv_samples(). */
 typedef struct galv_sampling {
-    size_t count;    /**< N >= 1 */
+    size_t count; /**< N >= 1 */
+    size_t first; /**< index of the first sample in the uniform stream, 0 unless an earlier run used
+                     it */
     uint64_t seed;   /**< of the uniform stream; unused when x is given */
     const double *x; /**< N rows of n parameters, borrowed for the call; NULL: uniform stream */
 } galv_sampling;
@@ -46,7 +48,21 @@ typedef enum galv_method {
     GALV_METHOD_COVARIANCE, /**< the L x L matrix of eq. 6, zero rows dropped */
     GALV_METHOD_GRAM,       /**< the N x N matrix of inner products */
     GALV_METHOD_RANDOMISED, /**< block Krylov iteration on the stream, error bounds a posteriori */
+    GALV_METHOD_FACTORED,   /**< linear shapes only: the n x n matrix of their functions */
 } galv_method;
+
+/** Quantities of the moved hull that are appended to d(x), so that modes also account for their
+ * variance: geometric moments (moments.h), or anything else of physical meaning. This is the
+ * shape-supervised reduction of Khan et al., Computer-Aided Design 2022, 103327. */
+typedef struct galv_extra {
+    size_t count; /**< quantities */
+    /** Fills values (count) for the moved points. Returns 0, or non-zero to report a failure. */
+    int (*evaluate)(void *context, size_t npoints, const double *xyz, double *values);
+    void *context;         /**< borrowed */
+    const double *weights; /**< count weights in the inner product, > 0; borrowed. See
+                              galv_extra_balance(). */
+    bool concurrent;       /**< whether evaluate may run in several threads at once */
+} galv_extra;
 
 /** Called between blocks of samples with the fraction done, 0..1; non-zero cancels. */
 typedef int (*galv_progress)(void *context, double fraction);
@@ -61,10 +77,12 @@ typedef struct galv_options {
     galv_method method;    /**< default GALV_METHOD_AUTO */
     const double *weights; /**< npoints positive weights of the points in the inner product,
                               borrowed for the call; default NULL: equal measure (eq. 3) */
-    size_t workspace;      /**< bytes for matrices and blocks of samples; default 512 MiB */
-    uint64_t seed;         /**< of the randomised start block; default 1 */
-    galv_progress progress; /**< default NULL */
-    void *progress_context; /**< default NULL */
+    const galv_extra *extra; /**< appended quantities, as changes from the parent; borrowed for the
+                                call; default NULL */
+    size_t workspace;        /**< bytes for matrices and blocks of samples; default 512 MiB */
+    uint64_t seed;           /**< of the randomised start block; default 1 */
+    galv_progress progress;  /**< default NULL */
+    void *progress_context;  /**< default NULL */
 } galv_options;
 
 GALV_API void galv_options_init(galv_options *options);
@@ -95,14 +113,64 @@ GALV_API galv_status galv_build(const galv_shape *shape, size_t npoints, const d
                                 galv_sampling sampling, const galv_options *options,
                                 galv_model **model);
 
+/**
+ * Weights for appended quantities under which each of them has the same variance and all together
+ * `share` times that of the displacements, by trying the samples.
+ * @param sampling a few hundred samples are enough
+ * @param extra    its weights are not used
+ * @param share    > 0
+ * @param[out] weights  extra->count numbers, filled
+ * @return GALV_ERROR_GEOMETRY names a quantity that no sample changes.
+ */
+GALV_API galv_status galv_extra_balance(const galv_shape *shape, size_t npoints, const double *xyz,
+                                        galv_sampling sampling, const galv_extra *extra,
+                                        double share, double *weights);
+
+/** Fills values (extra->count) with the change of the appended quantities under a displacement d of
+ * the parent: what follows the 3 npoints displacements in a vector of all coordinates. */
+GALV_API galv_status galv_extra_change(const galv_extra *extra, size_t npoints, const double *xyz,
+                                       const double *d, double *values);
+
+/** Samples that do not come from a galv_shape: any N x L matrix, produced row by row. */
+typedef struct galv_data {
+    size_t count;       /**< N */
+    size_t coordinates; /**< L */
+    /** Fills count rows of L numbers with samples first..first+count-1; the same ones each time it
+     * is asked. Returns 0, or non-zero to report a failure. Called from one thread. */
+    int (*rows)(void *context, size_t first, size_t count, double *rows);
+    void *context;         /**< borrowed */
+    const double *weights; /**< L weights, or NULL */
+} galv_data;
+
+/** The latent space of a data set: as galv_build(), without points or parameters (options->weights
+ * and options->extra are not used, galv_backmap() not possible). */
+GALV_API galv_status galv_build_data(const galv_data *data, const galv_options *options,
+                                     galv_model **model);
+
+/**
+ * The latent space of a model's samples and more. The old samples enter through their known
+ * eigenpairs, so this costs as much as building from the new samples alone; what the old spectrum
+ * had beyond its pairs is lost to the modes (not to the trace) and bounded by
+ * galv_model_truncation().
+ * @param shape     the shape of the model; borrowed
+ * @param sampling  the new samples: sampling.first continues a uniform stream
+ * @param options   variance, modes, spectrum, method, extra, workspace; centring and weights are
+ * the model's
+ * @param[out] extended created
+ */
+GALV_API galv_status galv_extend(const galv_model *model, const galv_shape *shape,
+                                 galv_sampling sampling, const galv_options *options,
+                                 galv_model **extended);
+
 /** NULL is allowed. */
 GALV_API void galv_model_free(galv_model *model);
 
 /** @name Sizes
  * @{ */
-GALV_API size_t galv_model_samples(const galv_model *model);     /**< N */
-GALV_API size_t galv_model_points(const galv_model *model);      /**< E */
-GALV_API size_t galv_model_coordinates(const galv_model *model); /**< L = 3 E */
+GALV_API size_t galv_model_samples(const galv_model *model); /**< N */
+GALV_API size_t galv_model_points(const galv_model *model);  /**< E */
+GALV_API size_t
+galv_model_coordinates(const galv_model *model); /**< L = 3 E + appended quantities */
 GALV_API size_t
 galv_model_active(const galv_model *model); /**< coordinates that move in some sample */
 GALV_API size_t galv_model_parameters(const galv_model *model); /**< n of the shape sampled */
@@ -115,6 +183,12 @@ GALV_API size_t galv_model_spectrum(const galv_model *model);   /**< eigenvalues
  * @{ */
 GALV_API double galv_model_retained(const galv_model *model); /**< eq. 9 for the m modes, 0..1 */
 GALV_API double galv_model_trace(const galv_model *model);    /**< exact trace of C, m^2 */
+/** Eq. 9 for the displacements alone: what the modes retain of their variance. Equal to
+ * galv_model_retained() without appended quantities. */
+GALV_API double galv_model_retained_geometry(const galv_model *model);
+/** How much an eigenvalue may be too low because galv_extend() dropped the tail of a spectrum, m^2;
+ * 0 for a model from galv_build(). */
+GALV_API double galv_model_truncation(const galv_model *model);
 /** The leading eigenvalues, descending, m^2; galv_model_spectrum() of them. */
 GALV_API const double *galv_model_eigenvalues(const galv_model *model);
 /** |C w - lambda w| of each: some eigenvalue lies that close to the one reported, and the one
@@ -152,6 +226,25 @@ typedef struct galv_confidence {
 
 GALV_API galv_confidence galv_model_confidence(const galv_model *model);
 
+/**
+ * Bounds of the latent coordinates that hold a share of the samples, coordinate by coordinate: the
+ * box for coverage 1, the (1 - coverage)/2 quantiles from both ends otherwise.
+ * @param coverage (0, 1]
+ * @param[out] lower,upper  m each, filled
+ */
+GALV_API galv_status galv_latent_bounds(const galv_model *model, double coverage, double *lower,
+                                        double *upper);
+
+/** Radius r of the ellipsoid sum_k u_k^2 / lambda_k <= r^2 that holds a share (0, 1] of the
+ * samples. */
+GALV_API galv_status galv_latent_ellipsoid(const galv_model *model, double coverage,
+                                           double *radius);
+
+/** How far a latent point is from what was sampled, in the metric sum_k u_k^2 / lambda_k: from the
+ * origin, and from the nearest sample. Either result may be NULL. Cost O(N m). */
+GALV_API galv_status galv_latent_distance(const galv_model *model, const double *u, double *radius,
+                                          double *nearest);
+
 /** Latent coordinates of a displacement, u = W1^T (d - mean): d has L numbers, u m, filled. */
 GALV_API galv_status galv_project(const galv_model *model, const double *d, double *u);
 
@@ -170,6 +263,26 @@ GALV_API galv_status galv_reconstruct(const galv_model *model, const double *u, 
  */
 GALV_API galv_status galv_backmap(const galv_model *model, const galv_shape *shape, const double *u,
                                   double *x, double *residual);
+
+/** Everything a model holds, to be written to a file and made into a model again. Array sizes as in
+ * the accessors; `vectors` holds `kept` >= modes vectors, regression parameters x (1 + modes)
+ * numbers. */
+typedef struct galv_model_data {
+    size_t samples, points, coordinates, active, parameters, modes, spectrum, kept, passes;
+    bool centred; /* whether the mean of the samples is subtracted */
+    galv_method method;
+    double retained, retained_geometry, trace, trace_geometry, truncation;
+    galv_confidence confidence;
+    const double *eigenvalues, *residuals, *mse, *vectors, *mean, *parent, *weights, *latent,
+        *lower, *upper, *regression;
+} galv_model_data;
+
+/** Arrays are borrowed from the model. */
+GALV_API galv_model_data galv_model_view(const galv_model *model);
+
+/** A model from its numbers; copies all arrays. weights may be NULL; parent and regression are NULL
+ * when points and parameters are 0. Refuses sizes and values that no model has. */
+GALV_API galv_status galv_model_restore(const galv_model_data *data, galv_model **model);
 
 #ifdef __cplusplus
 }

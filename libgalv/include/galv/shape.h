@@ -67,6 +67,44 @@ GALV_API galv_status galv_shape_callback(size_t n, const double *lower, const do
                                          galv_displacement displace, void *context, bool concurrent,
                                          galv_shape **shape);
 
+/** A lattice of control points over a box, for free-form deformation (Sederberg and Parry 1986). */
+typedef struct galv_lattice {
+    galv_box box;
+    size_t count[3]; /**< control points along x, y, z, each >= 2 */
+    int degree[3];   /**< of clamped uniform B-splines, 1..count-1; count-1 is Bernstein */
+} galv_lattice;
+
+/** One parameter of a free-form deformation: the displacement of one control point along one axis.
+ */
+typedef struct galv_lattice_move {
+    size_t index[3]; /**< which control point */
+    int direction;   /**< 0, 1 or 2 */
+} galv_lattice_move;
+
+/**
+ * Free-form deformation: d = sum_i x_i B_i(point) e_direction(i), B_i the tensor product of
+ * B-splines of control point i. Linear in x. Points outside the box stay. Control points without a
+ * move are fixed: leaving out the outer layer(s) fixes the faces of the box (and, with degree k >=
+ * 2 and k layers left out, derivatives there); leaving out direction 1 on the layer index[1] = 0 of
+ * a box that starts at y = 0 keeps the centre plane.
+ * @param n      number of moves and of parameters
+ * @param moves  n moves; copied
+ */
+GALV_API galv_status galv_shape_ffd(const galv_lattice *lattice, size_t n,
+                                    const galv_lattice_move *moves, const double *lower,
+                                    const double *upper, galv_shape **shape);
+
+/**
+ * Given displacement fields on given points: d = sum_i x_i field_i. With the values of the basis
+ * functions of a NURBS hull at its grid points these are moves of its control points.
+ * @param n        number of fields and of parameters
+ * @param npoints  points the fields are given on; the shape displaces no other number of points
+ * @param fields   n rows of 3 npoints numbers; copied
+ */
+GALV_API galv_status galv_shape_fields(size_t n, size_t npoints, const double *fields,
+                                       const double *lower, const double *upper,
+                                       galv_shape **shape);
+
 /** NULL is allowed. */
 GALV_API void galv_shape_free(galv_shape *shape);
 
