@@ -1,0 +1,52 @@
+/* The YAML file of a run: every setting with its default and range, and one canonical text by which
+ * a later session recognises the same run. */
+#ifndef HULLOPT_CONFIG_H
+#define HULLOPT_CONFIG_H
+
+#include <bayesopt/bayesopt.h>
+#include <igabem/solve.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum { CONFIG_FROUDE_MOST = 8 };
+
+struct config {
+    char *path;         /* of the YAML file; the paths below are resolved against its folder */
+    char *name;         /* title of the report */
+    char *hull, *shape; /* files */
+
+    size_t sections, girth; /* design grid; 0: the one that the hull file keeps */
+    size_t samples;         /* of the latent space */
+    uint64_t latent_seed;
+    double variance;     /* share to retain, inside (0, 1) */
+    double tolerance;    /* of the simplified patch, share of the length */
+    double displacement; /* largest relative change of the volume; NAN: not constrained */
+    size_t initial, iterations;
+    bayesopt_design_kind design;
+    bayesopt_strategy strategy;
+    uint64_t search_seed;
+    igabem_options solver; /* froude, gravity, density and everything else of a solve */
+
+    int verify_refine;
+    size_t verify_froudes;
+    double verify_froude[CONFIG_FROUDE_MOST];
+
+    char *text; /* "field = value" lines with the digests of the input files */
+};
+
+/* Command-line replacements of two fields of the file; SIZE_MAX: not given. */
+struct config_overrides {
+    size_t initial, iterations;
+};
+
+/* Reads and checks everything that needs no geometry. On failure prints one sentence with file,
+ * line and field and returns false. */
+bool config_read(const char *path, const struct config_overrides *overrides, struct config *config);
+void config_free(struct config *config);
+
+/* First line in which two canonical texts differ, as "now ..., then ..." in sentence[size]; false
+ * when they are equal. */
+bool config_difference(const char *now, const char *then, char *sentence, size_t size);
+
+#endif

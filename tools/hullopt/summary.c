@@ -1,0 +1,203 @@
+#include "outputs.h"
+
+#include "particulars.h"
+
+#include <math.h>
+#include <string.h>
+
+/* JSON has no NaN: a figure that is not there is null. */
+static void put(json_t *object, const char *key, double value)
+{
+    json_object_set_new(object, key, isfinite(value) ? json_real(value) : json_null());
+}
+
+static void put_count(json_t *object, const char *key, size_t value)
+{
+    json_object_set_new(object, key, json_integer((json_int_t)value));
+}
+
+static void put_flag(json_t *object, const char *key, bool value)
+{
+    json_object_set_new(object, key, json_boolean(value));
+}
+
+static json_t *array(size_t n, const double *values)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < n; i++)
+        json_array_append_new(list, isfinite(values[i]) ? json_real(values[i]) : json_null());
+    return list;
+}
+
+static json_t *evaluation(const struct results *r, const struct evaluation *e)
+{
+    json_t *o = json_object();
+    put_count(o, "id", (size_t)e->id);
+    json_object_set_new(o, "phase", json_string(e->phase));
+    put(o, "cw", e->cw);
+    put(o, "cw_pressure", e->cw_pressure);
+    put(o, "rw", e->rw);
+    put(o, "share_beyond_cutoff", e->share_beyond_cutoff);
+    put(o, "condition", e->condition);
+    put(o, "volume", e->volume);
+    put(o, "wetted_area", e->wetted_area);
+    put_count(o, "dofs", e->dofs);
+    put(o, "simplification_bound", e->bound);
+    json_object_set_new(o, "latent", array(r->latent.modes, e->u));
+    return o;
+}
+
+static json_t *constraints(const struct results *r)
+{
+    json_t *o = json_object(), *displacement = json_object();
+    double allowed = results_number(r->settings, "constraints.displacement");
+    double change = r->best->volume_ratio - 1;
+    put(displacement, "allowed", allowed);
+    put(displacement, "before", r->baseline->volume);
+    put(displacement, "after", r->best->volume);
+    put(displacement, "change", change);
+    put_flag(displacement, "satisfied", isnan(allowed) || fabs(change) <= allowed);
+    json_object_set_new(o, "displacement", displacement);
+    return o;
+}
+
+static json_t *particulars(const struct results *r)
+{
+    struct particular list[PARTICULARS_MOST];
+    json_t *o = json_object();
+    size_t n = particulars_list(r, list);
+    for (size_t i = 0; i < n; i++) {
+        json_t *row = json_object();
+        json_object_set_new(row, "unit", json_string(list[i].unit));
+        put(row, "before", list[i].value[0]);
+        put(row, "after", list[i].value[1]);
+        json_object_set_new(o, list[i].key, row);
+    }
+    return o;
+}
+
+static json_t *verification(const struct results *r)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < r->n_rows; i++) {
+        const struct verification *v = &r->rows[i];
+        json_t *o = json_object();
+        json_object_set_new(o, "group", json_string(v->group));
+        json_object_set_new(o, "label", json_string(v->label));
+        json_object_set_new(o, "formulation", json_string(v->formulation));
+        put(o, "fr", v->froude);
+        put_count(o, "refine", (size_t)v->refine);
+        put(o, "stern_length", v->stern_length);
+        put(o, "cw_before", v->cw_parent);
+        put(o, "cw_after", v->cw_best);
+        put(o, "reduction_percent", 100 * (1 - v->cw_best / v->cw_parent));
+        put(o, "cw_pressure_before", v->cw_pressure_parent);
+        put(o, "cw_pressure_after", v->cw_pressure_best);
+        put_count(o, "dofs_before", v->dofs_parent);
+        put_count(o, "dofs_after", v->dofs_best);
+        put(o, "seconds", v->seconds);
+        json_object_set_new(o, "note", json_string(v->note));
+        json_array_append_new(list, o);
+    }
+    return list;
+}
+
+static json_t *robust(const struct verdict *v)
+{
+    json_t *o = json_object();
+    put_flag(o, "formulations", v->formulations);
+    json_object_set_new(o, "resolution",
+                        v->has_resolution ? json_boolean(v->resolution) : json_null());
+    json_object_set_new(o, "speeds", v->has_speeds ? json_boolean(v->speeds) : json_null());
+    put_flag(o, "only_objective", v->only_objective);
+    put_count(o, "other_models", v->models);
+    put_count(o, "confirm", v->confirm);
+    put_count(o, "partly", v->partly);
+    put_count(o, "deny", v->deny);
+    json_object_set_new(o, "statement", json_string(v->statement));
+    return o;
+}
+
+/* "key = value" lines as an object of texts and numbers. */
+static json_t *settings(const char *text)
+{
+    json_t *o = json_object();
+    char key[64], value[400];
+    for (const char *line = text; line && *line;) {
+        const char *equals = strstr(line, " =");
+        size_t length = equals ? (size_t)(equals - line) : 0;
+        if (length && length < sizeof key) {
+            memcpy(key, line, length);
+            key[length] = '\0';
+            double number = results_number(line, key);
+            results_text(line, key, value, sizeof value);
+            json_object_set_new(o, key, isfinite(number) ? json_real(number) : json_string(value));
+        }
+        line = strchr(line, '\n');
+        line = line ? line + 1 : NULL;
+    }
+    return o;
+}
+
+static json_t *failures(const struct results *r)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < r->n; i++) {
+        const struct evaluation *e = &r->evaluations[i];
+        if (!e->failed)
+            continue;
+        json_t *o = json_object();
+        put_count(o, "id", (size_t)e->id);
+        json_object_set_new(o, "stage", json_string(e->stage));
+        json_object_set_new(o, "reason", json_string(e->reason));
+        json_array_append_new(list, o);
+    }
+    return list;
+}
+
+static void put_latent(json_t *o, const struct latent *l)
+{
+    put_count(o, "modes", l->modes);
+    put_count(o, "parameters", l->parameters);
+    put_count(o, "latent_samples", l->samples);
+    put(o, "retained_variance", l->retained);
+    put(o, "trace", l->trace);
+    json_object_set_new(o, "eigenvalues", array(l->spectrum, l->eigenvalues));
+}
+
+json_t *summary_make(const struct results *r)
+{
+    struct results_times times = results_times(r);
+    json_t *o = json_object();
+    json_object_set_new(o, "format", json_string("hullopt-summary"));
+    put_count(o, "version", 1);
+    json_object_set_new(o, "tool", json_string("hullopt " TOOL_VERSION));
+    put_flag(o, "complete", r->complete);
+    json_object_set_new(o, "stop", r->stop ? json_string(r->stop) : json_null());
+    json_t *best = evaluation(r, r->best);
+    if (r->parameters) {
+        json_object_set_new(best, "parameters", array(r->n_parameters, r->parameters));
+        put(best, "parameters_residual", r->residual);
+    }
+    json_object_set_new(o, "baseline", evaluation(r, r->baseline));
+    json_object_set_new(o, "best", best);
+    put(o, "reduction_percent", 100 * (1 - r->best->cw / r->baseline->cw));
+    put_count(o, "evaluations", r->n - 1); /* without the parent */
+    put_count(o, "initial_samples", (size_t)results_number(r->settings, "search.initial"));
+    put_count(o, "failed_designs", r->failed);
+    put_latent(o, &r->latent);
+    put(o, "seconds", r->seconds);
+    put(o, "seconds_per_evaluation", times.evaluation);
+    put(o, "seconds_geometry", times.geometry);
+    put(o, "seconds_solve", times.solve);
+    put(o, "seconds_proposal", times.propose);
+    put_count(o, "sessions", r->sessions);
+    json_object_set_new(o, "constraints", constraints(r));
+    json_object_set_new(o, "particulars", particulars(r));
+    json_object_set_new(o, "verification", verification(r));
+    json_object_set_new(o, "robust", robust(&r->verdict));
+    json_object_set_new(o, "failures", failures(r));
+    json_object_set_new(o, "settings", settings(r->settings));
+    json_object_set_new(o, "solver", settings(r->solver));
+    return o;
+}

@@ -1,0 +1,97 @@
+#include "verify.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Half of the claimed gain confirms it; a finer mesh must keep more, because it is the same model.
+ */
+static const double CONFIRM_SHARE = 0.5, RESOLUTION_SHARE = 0.8;
+/* Changes below this are within what the mesh decides. */
+static const double NO_CHANGE = 0.01;
+
+static double reduction(const struct verification *row)
+{
+    return 1 - row->cw_best / row->cw_parent;
+}
+
+__attribute__((format(printf, 2, 3))) static void say(struct verdict *v, const char *format, ...)
+{
+    size_t length = strlen(v->statement);
+    va_list args;
+    va_start(args, format);
+    vsnprintf(v->statement + length, sizeof v->statement - length, format, args);
+    va_end(args);
+}
+
+static void count(const struct verification *row, struct verdict *v)
+{
+    double gain = reduction(row);
+    if (strcmp(row->group, "objective") == 0) {
+        v->claimed = gain;
+    } else if (strcmp(row->group, "formulation") == 0 || strcmp(row->group, "stern") == 0) {
+        v->models++;
+        if (gain >= CONFIRM_SHARE * v->claimed)
+            v->confirm++;
+        else if (gain > NO_CHANGE)
+            v->partly++;
+        else
+            v->deny++;
+    } else if (strcmp(row->group, "resolution") == 0) {
+        v->has_resolution = true;
+        v->resolution = gain >= RESOLUTION_SHARE * v->claimed;
+    } else if (strcmp(row->group, "speed") == 0) {
+        v->speeds = (!v->has_speeds || v->speeds) && gain >= -NO_CHANGE;
+        v->has_speeds = true;
+    }
+}
+
+static void state_models(struct verdict *v)
+{
+    if (v->models == 0)
+        say(v, "No other formulation gave a result, so the gain is unconfirmed.");
+    else if (v->only_objective)
+        say(v,
+            "Only the model of the search sees this gain: none of the %zu other models finds even "
+            "half of it (%zu find less, %zu none). Take it as a property of that model.",
+            v->models, v->partly, v->deny);
+    else if (v->formulations)
+        say(v, "%zu of %zu other models find at least half of the gain, and none contradicts it.",
+            v->confirm, v->models);
+    else
+        say(v,
+            "The models disagree: of %zu others %zu find at least half of the gain, %zu less, %zu "
+            "none.",
+            v->models, v->confirm, v->partly, v->deny);
+}
+
+static void state(struct verdict *v)
+{
+    if (!(v->claimed > NO_CHANGE)) {
+        say(v, "The search found nothing better than the parent.");
+        return;
+    }
+    say(v, "The objective sees C_w fall by %.1f %%. ", 100 * v->claimed);
+    state_models(v);
+    if (v->has_resolution)
+        say(v, v->resolution ? " A finer solve keeps the gain."
+                             : " A finer solve does not keep the gain.");
+    if (v->has_speeds)
+        say(v, v->speeds ? " At the other speeds resistance does not rise."
+                         : " At another speed the resistance rises.");
+}
+
+void verify_judge(const struct verification *rows, size_t n, struct verdict *v)
+{
+    *v = (struct verdict){.claimed = NAN};
+    for (size_t i = 0; i < n; i++)
+        if (isfinite(rows[i].cw_parent) && isfinite(rows[i].cw_best))
+            count(&rows[i], v);
+    bool gain = v->claimed > NO_CHANGE;
+    v->formulations = gain && v->models > 0 && v->deny == 0 && 2 * v->confirm > v->models;
+    v->only_objective = gain && v->models > 0 && v->confirm == 0;
+    v->resolution = v->resolution && gain;
+    v->speeds = v->speeds && gain;
+    state(v);
+}

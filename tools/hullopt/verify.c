@@ -1,0 +1,158 @@
+#include "verify.h"
+
+#include "cli.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Where neumann-kelvin-stern changes kernels is a choice; two shorter sterns beside the objective's
+ * show how much the choice decides. Shares of the length. */
+static const double OTHER_STERNS[] = {0.18, 0.26};
+
+static void add(struct verification *rows, igabem_options *options, size_t *n, const char *group,
+                const char *label, const igabem_options *setting)
+{
+    struct verification *row = &rows[*n];
+    *row = (struct verification){.froude = setting->froude,
+                                 .refine = setting->refine,
+                                 .stern_length = NAN,
+                                 .cw_parent = NAN,
+                                 .cw_best = NAN,
+                                 .cw_pressure_parent = NAN,
+                                 .cw_pressure_best = NAN};
+    snprintf(row->group, sizeof row->group, "%s", group);
+    snprintf(row->label, sizeof row->label, "%s", label);
+    snprintf(row->formulation, sizeof row->formulation, "%s",
+             igabem_formulation_name(setting->formulation));
+    if (setting->formulation == IGABEM_NEUMANN_KELVIN_STERN)
+        row->stern_length = setting->stern_length;
+    options[(*n)++] = *setting;
+}
+
+static void plan_models(const igabem_options *frozen, struct verification *rows,
+                        igabem_options *options, size_t *n)
+{
+    static const igabem_formulation all[] = {IGABEM_NEUMANN_KELVIN_STERN, IGABEM_NEUMANN_KELVIN,
+                                             IGABEM_DOUBLE_BODY_KOCHIN, IGABEM_HOGNER,
+                                             IGABEM_MICHELL};
+    char label[80];
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        if (all[i] == frozen->formulation)
+            continue;
+        igabem_options other = *frozen;
+        other.formulation = all[i];
+        add(rows, options, n, "formulation", igabem_formulation_name(all[i]), &other);
+    }
+    for (size_t i = 0; i < sizeof OTHER_STERNS / sizeof *OTHER_STERNS; i++) {
+        if (frozen->formulation != IGABEM_NEUMANN_KELVIN_STERN)
+            break;
+        igabem_options other = *frozen;
+        other.stern_length = OTHER_STERNS[i];
+        snprintf(label, sizeof label, "stern length %.2f L", other.stern_length);
+        add(rows, options, n, "stern", label, &other);
+    }
+}
+
+size_t verify_plan(const struct config *config, const igabem_options *frozen,
+                   struct verification rows[VERIFY_MOST], igabem_options options[VERIFY_MOST])
+{
+    size_t n = 0;
+    char label[80];
+    add(rows, options, &n, "objective", "objective of the search", frozen);
+    plan_models(frozen, rows, options, &n);
+    if (config->verify_refine > 1) {
+        igabem_options finer = *frozen;
+        finer.refine *= config->verify_refine;
+        snprintf(label, sizeof label, "%d times the resolution", config->verify_refine);
+        add(rows, options, &n, "resolution", label, &finer);
+    }
+    for (size_t i = 0; i < config->verify_froudes; i++) {
+        igabem_options other = *frozen;
+        other.froude = config->verify_froude[i];
+        snprintf(label, sizeof label, "Fr %g", other.froude);
+        add(rows, options, &n, "speed", label, &other);
+    }
+    return n;
+}
+
+static bool solve_one(const igabem_hull *hull, const igabem_options *options, const char *who,
+                      double *cw, double *cw_pressure, size_t *dofs, struct verification *row)
+{
+    igabem_solution *solution;
+    igabem_forces forces;
+    bool ok = igabem_solve(hull, options, &solution) == IGABEM_OK;
+    if (ok) {
+        ok = igabem_forces_compute(solution, &forces) == IGABEM_OK;
+        igabem_solution_free(solution);
+    }
+    if (!ok) {
+        snprintf(row->note, sizeof row->note, "%s: %.200s", who, igabem_last_error());
+        return false;
+    }
+    *cw = forces.cw;
+    *cw_pressure = forces.cw_pressure;
+    *dofs = forces.dofs;
+    return true;
+}
+
+static void solve_row(const igabem_hull *parent, const igabem_hull *best,
+                      const igabem_options *options, struct verification *row)
+{
+    double start = cli_seconds();
+    if (solve_one(parent, options, "parent", &row->cw_parent, &row->cw_pressure_parent,
+                  &row->dofs_parent, row) &&
+        best != parent)
+        solve_one(best, options, "optimum", &row->cw_best, &row->cw_pressure_best, &row->dofs_best,
+                  row);
+    if (best == parent) {
+        row->cw_best = row->cw_parent;
+        row->cw_pressure_best = row->cw_pressure_parent;
+        row->dofs_best = row->dofs_parent;
+    }
+    row->seconds = cli_seconds() - start;
+}
+
+static bool solve_rows(const struct config *config, const igabem_options *frozen,
+                       const igabem_hull *parent, const igabem_hull *best, struct store *store,
+                       size_t done)
+{
+    struct verification rows[VERIFY_MOST];
+    igabem_options options[VERIFY_MOST];
+    struct cli_progress progress;
+    size_t n = verify_plan(config, frozen, rows, options);
+    bool ok = true;
+    cli_progress_start(&progress, "verification");
+    for (size_t i = done; i < n && ok; i++) {
+        cli_progress_update(&progress, (double)i / (double)n, rows[i].label);
+        solve_row(parent, best, &options[i], &rows[i]);
+        ok = store_put_verification(store, i, &rows[i]) && store_update_session(store);
+    }
+    cli_progress_end(&progress);
+    return ok;
+}
+
+bool verify_run(const struct config *config, struct evaluator *evaluator, const double *best,
+                struct store *store)
+{
+    struct design designs[2] = {{0}, {0}};
+    igabem_hull *hulls[2] = {NULL, NULL};
+    struct failure failure;
+    struct verification *done;
+    size_t n;
+    if (!store_list_verifications(store, &done, &n))
+        return false;
+    free(done);
+    bool ok = evaluate_build(evaluator, NULL, &designs[0], &hulls[0], &failure) &&
+              (!best || evaluate_build(evaluator, best, &designs[1], &hulls[1], &failure));
+    if (!ok)
+        cli_fail("verification: %s: %s", failure.stage, failure.reason);
+    ok = ok &&
+         solve_rows(config, &evaluator->solver, hulls[0], best ? hulls[1] : hulls[0], store, n);
+    for (int k = 0; k < 2; k++) {
+        igabem_hull_free(hulls[k]);
+        design_free(&designs[k]);
+    }
+    return ok;
+}
