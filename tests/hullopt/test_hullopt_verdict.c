@@ -1,0 +1,114 @@
+/* What the rows of a verification are taken to mean. */
+#include "check.h"
+#include "verify.h"
+
+#include <string.h>
+
+static struct verification row(const char *group, double before, double after)
+{
+    struct verification v = {.cw_parent = before, .cw_best = after};
+    snprintf(v.group, sizeof v.group, "%s", group);
+    return v;
+}
+
+static void test_confirmed(void)
+{
+    const struct verification rows[] = {
+        row("objective", 1.6e-3, 0.8e-3),   row("formulation", 1.9e-3, 1.2e-3),
+        row("formulation", 1.7e-3, 1.0e-3), row("stern", 1.6e-3, 0.9e-3),
+        row("resolution", 1.6e-3, 0.85e-3), row("speed", 1.0e-3, 0.99e-3),
+    };
+    struct verdict v;
+    verify_judge(rows, 6, &v);
+    CHECK_CLOSE(v.claimed, 0.5, 1e-15);
+    CU_ASSERT_EQUAL(v.models, 3);
+    CU_ASSERT_EQUAL(v.confirm, 3);
+    CU_ASSERT_TRUE(v.formulations && v.resolution && v.speeds && !v.only_objective);
+    CU_ASSERT_PTR_NOT_NULL(strstr(v.statement, "3 of 3"));
+}
+
+static void test_only_objective(void)
+{
+    const struct verification rows[] = {
+        row("objective", 2.6e-3, 0.9e-3),   row("formulation", 1.9e-3, 2.0e-3),
+        row("formulation", 1.6e-3, 1.5e-3), row("resolution", 2.6e-3, 2.0e-3),
+        row("speed", 1.0e-3, 1.2e-3),
+    };
+    struct verdict v;
+    verify_judge(rows, 5, &v);
+    CU_ASSERT_TRUE(v.only_objective);
+    CU_ASSERT_FALSE(v.formulations || v.resolution || v.speeds);
+    CU_ASSERT_EQUAL(v.deny, 1);
+    CU_ASSERT_EQUAL(v.partly, 1);
+    CU_ASSERT_PTR_NOT_NULL(strstr(v.statement, "Only the model of the search"));
+}
+
+static void test_divided(void)
+{
+    const struct verification rows[] = {
+        row("objective", 1.0, 0.5),
+        row("formulation", 1.0, 0.6),
+        row("formulation", 1.0, 1.1),
+    };
+    struct verdict v;
+    verify_judge(rows, 3, &v);
+    CU_ASSERT_FALSE(v.formulations);
+    CU_ASSERT_FALSE(v.only_objective);
+    CU_ASSERT_FALSE(v.has_resolution || v.has_speeds);
+    CU_ASSERT_PTR_NOT_NULL(strstr(v.statement, "disagree"));
+}
+
+/* A row without a result is no evidence either way. */
+static void test_missing(void)
+{
+    const struct verification rows[] = {row("objective", 1.0, 0.5), row("formulation", 1.0, NAN)};
+    struct verdict v;
+    verify_judge(rows, 2, &v);
+    CU_ASSERT_EQUAL(v.models, 0);
+    CU_ASSERT_FALSE(v.formulations);
+    CU_ASSERT_PTR_NOT_NULL(strstr(v.statement, "unconfirmed"));
+    verify_judge(rows, 0, &v);
+    CU_ASSERT_FALSE(v.formulations || v.only_objective);
+}
+
+static void test_no_gain(void)
+{
+    const struct verification rows[] = {row("objective", 1.0, 1.0), row("formulation", 1.0, 1.0)};
+    struct verdict v;
+    verify_judge(rows, 2, &v);
+    CU_ASSERT_FALSE(v.formulations || v.only_objective);
+    CU_ASSERT_PTR_NOT_NULL(strstr(v.statement, "nothing better"));
+}
+
+static void test_plan(void)
+{
+    struct config config = {.verify_refine = 2, .verify_froudes = 2, .verify_froude = {0.28, 0.41}};
+    igabem_options frozen, options[VERIFY_MOST];
+    struct verification rows[VERIFY_MOST];
+    igabem_options_init(&frozen);
+    frozen.froude = 0.35;
+    frozen.formulation = IGABEM_NEUMANN_KELVIN_STERN;
+    size_t n = verify_plan(&config, &frozen, rows, options);
+    CU_ASSERT_EQUAL(n, 1 + 4 + 2 + 1 + 2);
+    CU_ASSERT_STRING_EQUAL(rows[0].group, "objective");
+    for (size_t i = 1; i < n; i++) {
+        int changed = (options[i].formulation != frozen.formulation) +
+                      (options[i].stern_length != frozen.stern_length) +
+                      (options[i].refine != frozen.refine) + (options[i].froude != frozen.froude);
+        CU_ASSERT_EQUAL(changed, 1);
+        CU_ASSERT_EQUAL(options[i].froude, rows[i].froude);
+        CU_ASSERT_EQUAL(options[i].refine, rows[i].refine);
+    }
+    frozen.formulation = IGABEM_NEUMANN_KELVIN;
+    config.verify_refine = 1;
+    config.verify_froudes = 0;
+    CU_ASSERT_EQUAL(verify_plan(&config, &frozen, rows, options), 1 + 4);
+}
+
+static const struct check_case cases[] = {
+    {"all models agree", test_confirmed}, {"only the objective sees the gain", test_only_objective},
+    {"models disagree", test_divided},    {"missing results", test_missing},
+    {"no gain at all", test_no_gain},     {"what is verified", test_plan},
+};
+
+CHECK_MAIN("hullopt verdict", cases)
