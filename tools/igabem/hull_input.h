@@ -1,0 +1,32 @@
+/* From a hull file to the wetted hull that the solver takes. */
+#ifndef HULL_INPUT_H
+#define HULL_INPUT_H
+
+#include <igabem/hull.h>
+#include <nurbs/nurbs.h>
+
+/* What to do with the file. */
+struct hull_request {
+    const char *path;
+    double level;    /* z of the still water in the file's axes, m */
+    double draft;    /* keel draft amidships that sets the level instead; NAN: not given */
+    double simplify; /* tolerance of knot removal over the length; 0: none; NAN: 1e-4 if cut */
+    double length;   /* reference length, m; NAN: the file's, else the waterline's */
+};
+
+struct hull_input {
+    nurbs_patches *patches; /* wetted, z = 0 the still water; owned */
+    igabem_hull *hull;      /* owned */
+    char note[160];         /* what was done to the file */
+    double level;           /* z of the still water in the file's axes */
+    double simplify_bound;  /* metres, 0 if nothing was simplified */
+    double lpp;             /* of the file, 0: none given */
+};
+
+void hull_request_init(struct hull_request *request, const char *path);
+
+/* Reads, cuts, simplifies and checks. Returns CLI_OK, or CLI_FAILED after a message. */
+int hull_input_read(const struct hull_request *request, struct hull_input *input);
+void hull_input_free(struct hull_input *input);
+
+#endif

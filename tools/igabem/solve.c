@@ -1,0 +1,184 @@
+/* igabem solve: Froude numbers x formulations x levels of refinement on one hull. */
+#include "solve.h"
+
+#include "cli.h"
+#include "commands.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+const struct solve_result *solve_run_result(const struct solve_run *run, size_t level, size_t c)
+{
+    return &run->results[level * run->cases + c];
+}
+
+double ittc57_friction(double reynolds)
+{
+    if (!(reynolds > 1000.0))
+        return NAN;
+    double d = log10(reynolds) - 2.0;
+    return 0.075 / (d * d);
+}
+
+/* The exponent p of c_k = c + a h_k^p through three levels: with h = 1/refine,
+ * (c1 - c2)/(c2 - c3) = (h1^p - h2^p)/(h2^p - h3^p), which grows with p; bisection. */
+void solve_observed_order(const struct solve_ladder *ladder, size_t upto, double *order,
+                          double *limit)
+{
+    *order = *limit = NAN;
+    if (upto < 3 || upto > ladder->n)
+        return;
+    double c[3], h[3];
+    for (size_t k = 0; k < 3; k++) {
+        const struct solve_result *level = ladder->level[upto - 3 + k];
+        c[k] = level->forces.cw;
+        h[k] = 1.0 / level->refine;
+    }
+    double ratio = (c[0] - c[1]) / (c[1] - c[2]);
+    double low = 0.01, high = 20.0;
+    for (int i = 0; i < 200; i++) {
+        double p = 0.5 * (low + high);
+        double model = (pow(h[0], p) - pow(h[1], p)) / (pow(h[1], p) - pow(h[2], p));
+        if (!(model > ratio))
+            low = p;
+        else
+            high = p;
+    }
+    if (!isfinite(ratio) || low < 0.02 || high > 19.9)
+        return;
+    double p = 0.5 * (low + high);
+    *order = p;
+    *limit = c[2] + (c[2] - c[1]) / (pow(h[1] / h[2], p) - 1.0);
+}
+
+/* Formulations of a run. Fills list[6], returns their number. */
+static size_t formulations(const struct solve_request *request, const igabem_hull_info *info,
+                           igabem_formulation list[6])
+{
+    size_t n = 0;
+    if (!request->all) {
+        list[n++] = request->options.formulation;
+        return n;
+    }
+    if (info->transom)
+        list[n++] = IGABEM_NEUMANN_KELVIN_STERN;
+    list[n++] = IGABEM_NEUMANN_KELVIN;
+    list[n++] = IGABEM_DOUBLE_BODY_KOCHIN;
+    list[n++] = IGABEM_HOGNER;
+    list[n++] = IGABEM_MICHELL;
+    return n;
+}
+
+static int report_progress(void *data, double fraction)
+{
+    cli_progress_update(data, fraction, NULL);
+    return 0;
+}
+
+/* Settings of all cases of one level: Froude numbers slow, formulations fast. */
+static void fill_options(const struct solve_run *run, int refine, igabem_options *options)
+{
+    const struct solve_request *request = run->request;
+    igabem_formulation list[6];
+    size_t n = formulations(request, &run->info, list);
+    for (size_t c = 0; c < run->cases; c++) {
+        options[c] = request->options;
+        options[c].froude = request->fr[c / n];
+        options[c].formulation = list[c % n];
+        options[c].refine = refine;
+        if (!isnan(request->x_s))
+            options[c].stern_length =
+                fmax(0.0, (request->x_s - run->info.hydrostatics.x_aft) / run->info.length);
+    }
+}
+
+static int write_files(const struct solve_run *run, const igabem_solution *solution)
+{
+    const struct solve_request *request = run->request;
+    int code = CLI_OK;
+    if (request->vtu)
+        code = solve_write_vtu(solution, run->input, request->vtu);
+    if (code == CLI_OK && request->waves)
+        code = solve_write_waves(solution, run, request->waves);
+    if (code == CLI_OK && request->spectrum)
+        code = solve_write_spectrum(solution, request->spectrum);
+    return code;
+}
+
+static int solve_level(struct solve_run *run, size_t level, igabem_options *options,
+                       igabem_solution **solutions, struct cli_progress *progress)
+{
+    int refine = run->request->options.refine + (int)level;
+    fill_options(run, refine, options);
+    for (size_t c = 0; c < run->cases; c++) {
+        options[c].progress = report_progress;
+        options[c].progress_data = progress;
+    }
+    igabem_status status = igabem_solve_many(run->input->hull, run->cases, options, solutions);
+    for (size_t c = 0; !status && c < run->cases; c++) {
+        struct solve_result *result = &run->results[level * run->cases + c];
+        status = igabem_forces_compute(solutions[c], &result->forces);
+        result->options = *igabem_solution_options(solutions[c]);
+        result->refine = refine;
+    }
+    int code = CLI_OK;
+    if (status)
+        code = cli_fail("%s: %s", run->request->hull.path, igabem_last_error());
+    else if (level + 1 == run->levels) {
+        igabem_formulation list[6];
+        size_t n = formulations(run->request, &run->info, list);
+        code = write_files(run, solutions[run->cases - n]);
+    }
+    for (size_t c = 0; c < run->cases; c++)
+        igabem_solution_free(solutions[c]);
+    return code;
+}
+
+static int solve_all(struct solve_run *run)
+{
+    igabem_options *options = calloc(run->cases, sizeof *options);
+    igabem_solution **solutions = calloc(run->cases, sizeof *solutions);
+    run->results = calloc(run->cases * run->levels, sizeof *run->results);
+    int code = CLI_OK;
+    if (!options || !solutions || !run->results)
+        code = cli_fail("out of memory");
+    struct cli_progress progress;
+    cli_progress_start(&progress, "solving");
+    for (size_t level = 0; code == CLI_OK && level < run->levels; level++) {
+        memset(solutions, 0, run->cases * sizeof *solutions);
+        code = solve_level(run, level, options, solutions, &progress);
+    }
+    cli_progress_end(&progress);
+    free(options);
+    free(solutions);
+    return code;
+}
+
+int command_solve(int argc, char **argv)
+{
+    struct solve_request request;
+    struct hull_input input = {0};
+    bool done;
+    int code = solve_parse(argc, argv, &request, &done);
+    if (code != CLI_OK || done) {
+        solve_request_free(&request);
+        return code;
+    }
+    struct solve_run run = {.request = &request, .input = &input, .levels = (size_t)request.ladder};
+    code = hull_input_read(&request.hull, &input);
+    if (code == CLI_OK) {
+        igabem_formulation list[6];
+        igabem_hull_get_info(input.hull, &run.info);
+        run.cases = request.n_fr * formulations(&request, &run.info, list);
+        code = solve_all(&run);
+    }
+    if (code == CLI_OK && request.plot)
+        code = solve_write_plot(&run, request.plot);
+    if (code == CLI_OK)
+        code = request.json ? solve_print_json(&run) : solve_print_table(&run);
+    free(run.results);
+    hull_input_free(&input);
+    solve_request_free(&request);
+    return code;
+}

@@ -1,0 +1,75 @@
+/* What the parts of `igabem solve` pass to each other. */
+#ifndef IGABEM_TOOL_SOLVE_H
+#define IGABEM_TOOL_SOLVE_H
+
+#include "hull_input.h"
+
+#include <igabem/igabem.h>
+
+#include <jansson.h>
+#include <stdbool.h>
+
+struct solve_request {
+    struct hull_request hull;
+    igabem_options options;
+    double *fr;
+    size_t n_fr;
+    bool all;         /* every formulation */
+    int ladder;       /* levels, 1: none */
+    double x_s;       /* metres, NAN: options.stern_length */
+    double viscosity; /* kinematic, m^2/s */
+    double form_factor;
+    const char *vtu, *waves, *plot, *spectrum;
+    size_t waves_grid[2];
+    double waves_box[4]; /* x0, x1, y0, y1 in lengths from the fore end, NAN: default */
+    bool json;
+};
+
+/* Reads the command line. CLI_OK, or the exit code after a message; *done is set when --help or
+ * --version has been served. */
+int solve_parse(int argc, char **argv, struct solve_request *request, bool *done);
+void solve_request_free(struct solve_request *request);
+
+struct solve_result {
+    igabem_options options; /* as used */
+    igabem_forces forces;
+    int refine;
+};
+
+/* One ladder: results of one Froude number and formulation, coarse to fine. */
+struct solve_ladder {
+    size_t n;
+    const struct solve_result *const *level;
+};
+
+/* Observed order of cw over the last three of n levels of mesh width 1/refine, and Richardson's
+ * value; NAN where they do not exist. */
+void solve_observed_order(const struct solve_ladder *ladder, size_t upto, double *order,
+                          double *limit);
+
+/* ITTC-57 friction coefficient at a Reynolds number; NAN below 1000. */
+double ittc57_friction(double reynolds);
+
+/* Everything that was computed, results[level][case], cases = Froude numbers x formulations. */
+struct solve_run {
+    const struct solve_request *request;
+    const struct hull_input *input;
+    igabem_hull_info info;
+    size_t cases, levels;
+    struct solve_result *results;
+};
+
+const struct solve_result *solve_run_result(const struct solve_run *run, size_t level, size_t c);
+
+int solve_print_json(const struct solve_run *run);
+int solve_print_table(const struct solve_run *run);
+
+/* Files of one solution; CLI_OK or CLI_FAILED after a message. */
+int solve_write_vtu(const igabem_solution *solution, const struct hull_input *input,
+                    const char *path);
+int solve_write_waves(const igabem_solution *solution, const struct solve_run *run,
+                      const char *path);
+int solve_write_spectrum(const igabem_solution *solution, const char *path);
+int solve_write_plot(const struct solve_run *run, const char *path);
+
+#endif

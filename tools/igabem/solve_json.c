@@ -1,0 +1,152 @@
+#include "cli.h"
+#include "solve.h"
+
+#include <errno.h>
+#include <math.h>
+#include <string.h>
+
+/* JSON has no NaN and no infinity. */
+static json_t *real(double value)
+{
+    return isfinite(value) ? json_real(value) : json_null();
+}
+
+static const char *kernel_name(igabem_kernel kernel)
+{
+    return kernel == IGABEM_KERNEL_KELVIN        ? "kelvin"
+           : kernel == IGABEM_KERNEL_DOUBLE_BODY ? "double-body"
+                                                 : "rankine";
+}
+
+static json_t *options_json(const struct solve_result *result)
+{
+    const igabem_options *o = &result->options;
+    json_t *json = json_object();
+    json_object_set_new(json, "kernel", json_string(kernel_name(o->kernel)));
+    json_object_set_new(json, "formulation", json_string(igabem_formulation_name(o->formulation)));
+    json_object_set_new(json, "refine", json_integer(o->refine));
+    json_object_set_new(json, "degree", json_integer(o->degree));
+    json_object_set_new(json, "line_term", json_boolean(o->line_term));
+    json_object_set_new(json, "cutoff_angle", real(o->cutoff_angle));
+    json_object_set_new(json, "cutoff_factor", real(o->cutoff_factor));
+    json_object_set_new(json, "stem_limit", real(o->stem_limit));
+    json_object_set_new(json, "stern_length", real(o->stern_length));
+    json_object_set_new(json, "stern_blend", real(o->stern_blend));
+    json_object_set_new(json, "spectrum_limit", real(o->spectrum_limit));
+    json_object_set_new(json, "tolerance", real(o->tolerance));
+    json_object_set_new(json, "gravity", real(o->gravity));
+    json_object_set_new(json, "density", real(o->density));
+    return json;
+}
+
+/* Total resistance by C_t = (1+k) C_f + C_w. */
+static void add_total(const struct solve_run *run, const igabem_forces *f, json_t *json)
+{
+    double reynolds = f->speed * run->info.length / run->request->viscosity;
+    double cf = ittc57_friction(reynolds), ct = (1.0 + run->request->form_factor) * cf + f->cw;
+    json_object_set_new(json, "reynolds", real(reynolds));
+    json_object_set_new(json, "cf", real(cf));
+    json_object_set_new(json, "ct", real(ct));
+    json_object_set_new(
+        json, "rt",
+        real(0.5 * run->request->options.density * f->speed * f->speed * f->wetted_area * ct));
+}
+
+static json_t *result_json(const struct solve_run *run, const struct solve_result *result)
+{
+    const igabem_forces *f = &result->forces;
+    double weight = run->request->options.density * run->request->options.gravity * f->volume;
+    json_t *json = json_object();
+    json_object_set_new(json, "fr", real(result->options.froude));
+    json_object_set_new(json, "formulation",
+                        json_string(igabem_formulation_name(result->options.formulation)));
+    json_object_set_new(json, "k0", real(f->k0));
+    json_object_set_new(json, "speed", real(f->speed));
+    json_object_set_new(json, "dofs", json_integer((json_int_t)f->dofs));
+    json_object_set_new(json, "wetted_area", real(f->wetted_area));
+    json_object_set_new(json, "volume", real(f->volume));
+    json_object_set_new(json, "cw", real(f->cw));
+    json_object_set_new(json, "cw_pressure", real(f->cw_pressure));
+    json_object_set_new(json, "cw_pressure_linear", real(f->cw_pressure_linear));
+    json_object_set_new(json, "cw_l2", real(f->cw_l2));
+    json_object_set_new(json, "rw", real(f->rw));
+    json_object_set_new(json, "rw_over_weight", real(f->rw / weight));
+    json_object_set_new(json, "cw_cutoff_lower", real(f->cw_cutoff_lower));
+    json_object_set_new(json, "cw_cutoff_upper", real(f->cw_cutoff_upper));
+    json_object_set_new(json, "share_beyond_cutoff", real(f->share_beyond_cutoff));
+    json_object_set_new(json, "sinkage", real(f->sinkage));
+    json_object_set_new(json, "trim", real(f->trim));
+    json_object_set_new(json, "condition", real(f->condition));
+    json_object_set_new(json, "seconds", real(f->seconds));
+    if (result->options.kernel == IGABEM_KERNEL_KELVIN)
+        add_total(run, f, json);
+    json_object_set_new(json, "options", options_json(result));
+    return json;
+}
+
+static json_t *hull_json(const struct solve_run *run)
+{
+    const nurbs_hydrostatics *h = &run->info.hydrostatics;
+    json_t *json = json_object();
+    json_object_set_new(json, "file", json_string(run->request->hull.path));
+    json_object_set_new(json, "note", json_string(run->input->note));
+    json_object_set_new(json, "length", real(run->info.length));
+    json_object_set_new(json, "wetted_area", real(h->wetted_area));
+    json_object_set_new(json, "volume", real(h->volume));
+    json_object_set_new(json, "transom_area", real(h->transom_area));
+    json_object_set_new(json, "nu_s", real(run->info.nu_s));
+    json_object_set_new(json, "surface_piercing", json_boolean(run->info.surface_piercing));
+    json_object_set_new(json, "transom", json_boolean(run->info.transom));
+    json_object_set_new(json, "patches", json_integer((json_int_t)run->info.patches));
+    json_object_set_new(json, "simplify_bound", real(run->input->simplify_bound));
+    return json;
+}
+
+static json_t *ladder_json(const struct solve_run *run, size_t c)
+{
+    enum { MOST = 16 };
+    const struct solve_result *levels[MOST];
+    struct solve_ladder ladder = {run->levels, levels};
+    json_t *list = json_array(), *json = json_object();
+    double order = NAN, limit = NAN;
+    for (size_t level = 0; level < run->levels; level++)
+        levels[level] = solve_run_result(run, level, c);
+    for (size_t level = 0; level < run->levels; level++) {
+        const igabem_forces *f = &levels[level]->forces;
+        json_t *row = json_object();
+        solve_observed_order(&ladder, level + 1, &order, &limit);
+        json_object_set_new(row, "refine", json_integer(levels[level]->refine));
+        json_object_set_new(row, "dofs", json_integer((json_int_t)f->dofs));
+        json_object_set_new(row, "cw", real(f->cw));
+        json_object_set_new(row, "change",
+                            real(level ? f->cw / levels[level - 1]->forces.cw - 1.0 : NAN));
+        json_object_set_new(row, "order", real(order));
+        json_object_set_new(row, "richardson", real(limit));
+        json_object_set_new(row, "seconds", real(f->seconds));
+        json_array_append_new(list, row);
+    }
+    json_object_set_new(json, "fr", real(levels[0]->options.froude));
+    json_object_set_new(json, "formulation",
+                        json_string(igabem_formulation_name(levels[0]->options.formulation)));
+    json_object_set_new(json, "levels", list);
+    return json;
+}
+
+int solve_print_json(const struct solve_run *run)
+{
+    json_t *json = json_object(), *results = json_array();
+    json_object_set_new(json, "hull", hull_json(run));
+    for (size_t c = 0; c < run->cases; c++)
+        json_array_append_new(results, result_json(run, solve_run_result(run, run->levels - 1, c)));
+    json_object_set_new(json, "results", results);
+    if (run->levels > 1) {
+        json_t *ladders = json_array();
+        for (size_t c = 0; c < run->cases; c++)
+            json_array_append_new(ladders, ladder_json(run, c));
+        json_object_set_new(json, "ladder", ladders);
+    }
+    int failed = json_dumpf(json, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(12)) != 0 ||
+                 putchar('\n') == EOF || fflush(stdout) == EOF;
+    json_decref(json);
+    return failed ? cli_fail("standard output: %s", strerror(errno)) : CLI_OK;
+}

@@ -1,0 +1,128 @@
+#include "cli.h"
+#include "solve.h"
+
+#include <errno.h>
+#include <math.h>
+#include <string.h>
+
+static void print_hull(const struct solve_run *run)
+{
+    const nurbs_hydrostatics *h = &run->info.hydrostatics;
+    printf("hull        %s (%s)\n", run->request->hull.path, run->input->note);
+    printf("            L %.5g m, S %.5g m^2, V %.5g m^3, %s%s\n", run->info.length, h->wetted_area,
+           h->volume, run->info.surface_piercing ? "surface-piercing" : "submerged",
+           run->info.transom ? ", open transom" : "");
+    if (run->input->simplify_bound > 0)
+        printf("            simplified within %.3g m\n", run->input->simplify_bound);
+}
+
+static int solves_waves(igabem_formulation formulation)
+{
+    return formulation == IGABEM_NEUMANN_KELVIN || formulation == IGABEM_NEUMANN_KELVIN_STERN;
+}
+
+/* The formulation with every length and angle that went into the number. */
+static void print_settings(const struct solve_run *run, const struct solve_result *result)
+{
+    const igabem_options *o = &result->options;
+    const igabem_forces *f = &result->forces;
+    int line = o->line_term && run->info.surface_piercing && o->formulation != IGABEM_MICHELL;
+    printf("  %s: line term %s", igabem_formulation_name(o->formulation), line ? "on" : "off");
+    if (line)
+        printf(", stem limit %.4g", o->stem_limit);
+    if (run->info.surface_piercing && solves_waves(o->formulation)) {
+        if (isfinite(o->cutoff_angle) && f->k0 > 0)
+            printf(", filter t_c %.4g = %.3g/nu_s (shortest wave %.3g m)", o->cutoff_angle,
+                   o->cutoff_angle * run->info.nu_s,
+                   6.283185307179586 / (f->k0 * (1.0 + o->cutoff_angle * o->cutoff_angle)));
+        else
+            printf(", no filter");
+    }
+    if (run->info.surface_piercing)
+        printf(", nu_s %.4g", run->info.nu_s);
+    if (o->formulation == IGABEM_NEUMANN_KELVIN_STERN)
+        printf(", x_s %.4g m", run->info.hydrostatics.x_aft + o->stern_length * run->info.length);
+    printf("\n");
+}
+
+static void print_result(const struct solve_run *run, const struct solve_result *result)
+{
+    const igabem_forces *f = &result->forces;
+    printf("%-7.4g %-20s %6zu %11.4e %11.4e %11.4e %9.4g %9.1e %7.2f\n", result->options.froude,
+           igabem_formulation_name(result->options.formulation), f->dofs, f->cw, f->cw_pressure,
+           f->cw_l2, f->rw, f->condition, f->seconds);
+    print_settings(run, result);
+    if (isfinite(f->cw_cutoff_lower) || isfinite(f->cw_cutoff_upper))
+        printf("  C_w at 0.85 t_c %.4e, at 1.15 t_c %.4e; beyond t_c %.2g %%\n", f->cw_cutoff_lower,
+               f->cw_cutoff_upper, 100.0 * f->share_beyond_cutoff);
+    else if (f->share_beyond_cutoff > 0)
+        printf("  beyond t_c %.2g %% of C_w\n", 100.0 * f->share_beyond_cutoff);
+    if (isfinite(f->sinkage))
+        printf("  sinkage %.4g m, trim %.4g deg bow up\n", f->sinkage, f->trim * 57.29577951308232);
+    if (result->options.kernel == IGABEM_KERNEL_KELVIN) {
+        double cf = ittc57_friction(f->speed * run->info.length / run->request->viscosity);
+        double ct = (1.0 + run->request->form_factor) * cf + f->cw;
+        printf("  ITTC-57 C_f %.4e, C_t %.4e, R_t %.5g N at U %.4g m/s\n", cf, ct,
+               0.5 * run->request->options.density * f->speed * f->speed * f->wetted_area * ct,
+               f->speed);
+    }
+}
+
+static void print_ladder(const struct solve_run *run, size_t c)
+{
+    enum { MOST = 16 };
+    const struct solve_result *levels[MOST];
+    struct solve_ladder ladder = {run->levels, levels};
+    for (size_t level = 0; level < run->levels; level++)
+        levels[level] = solve_run_result(run, level, c);
+    printf("\nrefinement at Fr %g, %s\nrefine unknowns         C_w    change   order  Richardson "
+           "seconds\n",
+           levels[0]->options.froude, igabem_formulation_name(levels[0]->options.formulation));
+    for (size_t level = 0; level < run->levels; level++) {
+        const igabem_forces *f = &levels[level]->forces;
+        double order, limit;
+        solve_observed_order(&ladder, level + 1, &order, &limit);
+        printf("%6d %8zu %11.5e ", levels[level]->refine, f->dofs, f->cw);
+        if (level > 0)
+            printf("%8.3f%% ", 100.0 * (f->cw / levels[level - 1]->forces.cw - 1.0));
+        else
+            printf("%9s ", "");
+        if (isfinite(order))
+            printf("%7.2f %11.5e", order, limit);
+        else
+            printf("%7s %11s", "", "");
+        printf(" %7.2f\n", f->seconds);
+    }
+}
+
+/* Spread of the formulations at one Froude number: the uncertainty that a user sees. */
+static void print_spread(const struct solve_run *run)
+{
+    size_t per_fr = run->cases / run->request->n_fr;
+    printf("\nspread of the formulations\n");
+    for (size_t i = 0; i < run->request->n_fr; i++) {
+        double low = INFINITY, high = -INFINITY;
+        for (size_t k = 0; k < per_fr; k++) {
+            double cw = solve_run_result(run, run->levels - 1, i * per_fr + k)->forces.cw;
+            low = fmin(low, cw);
+            high = fmax(high, cw);
+        }
+        printf("%-7.4g %.4e to %.4e\n", run->request->fr[i], low, high);
+    }
+}
+
+int solve_print_table(const struct solve_run *run)
+{
+    print_hull(run);
+    printf("\n%-7s %-20s %6s %11s %11s %11s %9s %9s %7s\n", "Fr", "formulation", "dofs", "C_w",
+           "C_w press.", "C_w (L^2)", "R_w N", "condition", "seconds");
+    for (size_t c = 0; c < run->cases; c++)
+        print_result(run, solve_run_result(run, run->levels - 1, c));
+    if (run->request->all)
+        print_spread(run);
+    for (size_t c = 0; run->levels > 1 && c < run->cases; c++)
+        print_ladder(run, c);
+    if (fflush(stdout) == EOF || ferror(stdout))
+        return cli_fail("standard output: %s", strerror(errno));
+    return CLI_OK;
+}
