@@ -155,21 +155,29 @@ static double refine_crossing(const cut *sections, double above, double below)
     return v;
 }
 
-cut_kind cut_section(cut *sections, double u, double *crossing)
+static cut_kind polygon_kind(const cut *sections)
 {
-    double basis[NURBS_MAX_DEGREE + 1];
-    size_t span =
-        nurbs_basis_span(sections->degree[0], sections->size[0], sections->knots_u, u, NULL);
-    nurbs_basis(sections->degree[0], sections->knots_u, span, u, basis);
-    blend_rows(sections, span, basis, sections->polygon);
+    const double *h = sections->polygon;
+    size_t changes = 0;
+    int before = h[2] - sections->level * h[3] >= -sections->slack;
+    if (!before)
+        return CUT_BELOW;
+    for (size_t j = 1; j < sections->size[1]; j++) {
+        int above = h[4 * j + 2] - sections->level * h[4 * j + 3] >= 0;
+        changes += above != before;
+        before = above;
+    }
+    return changes == 0 ? CUT_ABOVE : changes == 1 ? CUT_CROSSES : CUT_SEVERAL;
+}
+
+/* The same from points of the curve. */
+static cut_kind scan_section(const cut *sections, double *crossing)
+{
     size_t changes = 0, at = 0, hint = 0;
-    int before = 0;
-    *crossing = 1;
-    for (size_t k = 0; k < sections->scans; k++) {
-        int above = height(sections, sections->scan[k], &hint, NULL) >= (k ? 0 : -sections->slack);
-        if (k == 0 && !above)
-            return CUT_BELOW;
-        if (k > 0 && above != before) {
+    int before = 1;
+    for (size_t k = 1; k < sections->scans; k++) {
+        int above = height(sections, sections->scan[k], &hint, NULL) >= 0;
+        if (above != before) {
             changes++;
             at = k;
         }
@@ -181,6 +189,21 @@ cut_kind cut_section(cut *sections, double u, double *crossing)
         return CUT_SEVERAL;
     *crossing = refine_crossing(sections, sections->scan[at - 1], sections->scan[at]);
     return CUT_CROSSES;
+}
+
+cut_kind cut_section(cut *sections, double u, double *crossing)
+{
+    double basis[NURBS_MAX_DEGREE + 1];
+    size_t span =
+        nurbs_basis_span(sections->degree[0], sections->size[0], sections->knots_u, u, NULL);
+    nurbs_basis(sections->degree[0], sections->knots_u, span, u, basis);
+    blend_rows(sections, span, basis, sections->polygon);
+    *crossing = 1;
+    /* The curve crosses the plane at most as often as its control polygon does. */
+    cut_kind kind = polygon_kind(sections);
+    if (kind == CUT_CROSSES)
+        *crossing = refine_crossing(sections, 0, 1);
+    return kind == CUT_SEVERAL ? scan_section(sections, crossing) : kind;
 }
 
 static double section_parameter(double crossing, double w)

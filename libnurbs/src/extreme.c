@@ -1,5 +1,5 @@
 #include "error.h"
-#include "integrals.h"
+#include "hydro_parts.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* Volumes by the divergence theorem with F = (0, y, 0): the centre plane y = 0, the water plane and
  * a transom closed by lines along y carry no flux, so the hull alone is integrated. */
 #include "error.h"
-#include "integrals.h"
+#include "hydro_parts.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,7 +10,7 @@
 static nurbs_status sum_patches(size_t n, const nurbs_surface *const *patches, double level,
                                 size_t order, patch_sums *total)
 {
-    *total = (patch_sums){0};
+    *total = no_sums;
     for (size_t k = 0; k < n; k++) {
         patch_sums patch;
         nurbs_status status = patch_integrate(patches[k], level, order, &patch);
@@ -19,8 +19,11 @@ static nurbs_status sum_patches(size_t n, const nurbs_surface *const *patches, d
         /* The normal leaves the body sideways and downwards. */
         double sign = patch.y_ny - patch.depth_nz < 0 ? -1 : 1;
         total->area += patch.area;
-        for (int c = 0; c < 3; c++)
+        for (int c = 0; c < 3; c++) {
             total->normal[c] += sign * patch.normal[c];
+            total->low[c] = fmin(total->low[c], patch.low[c]);
+            total->high[c] = fmax(total->high[c], patch.high[c]);
+        }
         total->y_ny += sign * patch.y_ny;
         total->x_y_ny += sign * patch.x_y_ny;
         total->y_y_ny += sign * patch.y_y_ny;
@@ -52,27 +55,17 @@ static nurbs_status sum_adaptively(size_t n, const nurbs_surface *const *patches
     }
 }
 
-static nurbs_status check_half(size_t n, const nurbs_surface *const *patches, double level)
+static nurbs_status check_half(const patch_sums *sums, double level)
 {
-    double low = 0, high = 0, top = -INFINITY, bottom = INFINITY;
-    for (size_t k = 0; k < n; k++) {
-        const double *p = nurbs_surface_points(patches[k]);
-        size_t count = nurbs_surface_size(patches[k], 0) * nurbs_surface_size(patches[k], 1);
-        for (size_t i = 0; i < count; i++) {
-            low = fmin(low, p[3 * i + 1]);
-            high = fmax(high, p[3 * i + 1]);
-            top = fmax(top, p[3 * i + 2]);
-            bottom = fmin(bottom, p[3 * i + 2]);
-        }
-    }
-    if (!(high > 0) || -low > 0.05 * high)
+    if (!(sums->high[1] > 0) || -sums->low[1] > 0.02 * sums->high[1])
         return nurbs_fail(NURBS_ERROR_GEOMETRY,
-                          "y runs from %g to %g m: expected a half hull with y >= 0", low, high);
-    if (top - level > 0.02 * (top - bottom))
+                          "y runs from %g to %g m: expected a half hull with y >= 0", sums->low[1],
+                          sums->high[1]);
+    if (sums->high[2] - level > 1e-3 * (sums->high[2] - sums->low[2]))
         return nurbs_fail(NURBS_ERROR_GEOMETRY,
-                          "control points reach z = %g, above the level %g: cut the hull first "
+                          "the surface reaches z = %g, above the level %g: cut the hull first "
                           "(nurbs_surface_wetted)",
-                          top, level);
+                          sums->high[2], level);
     return NURBS_OK;
 }
 
@@ -124,9 +117,9 @@ nurbs_status nurbs_hydrostatics_compute(size_t n, const nurbs_surface *const *we
         return nurbs_fail(NURBS_ERROR_ARGUMENT, "no patches");
     if (!isfinite(level))
         return nurbs_fail(NURBS_ERROR_ARGUMENT, "level %g is not finite", level);
-    nurbs_status status = check_half(n, wetted, level);
+    nurbs_status status = sum_adaptively(n, wetted, level, &sums, &result->error);
     if (status == NURBS_OK)
-        status = sum_adaptively(n, wetted, level, &sums, &result->error);
+        status = check_half(&sums, level);
     if (status == NURBS_OK)
         status = waterplane_integrate(n, wetted, level, &plane);
     if (status != NURBS_OK)

@@ -58,19 +58,22 @@ nurbs_status knot_list_append(knot_list *list, double knot)
     return NURBS_OK;
 }
 
-nurbs_status knot_list_halve(knot_list *list, const unsigned char *split, size_t count)
+nurbs_status knot_list_divide(knot_list *list, const unsigned char *parts)
 {
-    size_t old = list->size + (size_t)list->degree + 1, to = old + count;
-    nurbs_status status = reserve(list, list->size + count);
+    size_t old = list->size + (size_t)list->degree + 1, added = 0;
+    for (size_t k = 0; k + 1 < old; k++)
+        added += parts[k] > 1 ? parts[k] - 1U : 0;
+    nurbs_status status = reserve(list, list->size + added);
     if (status != NURBS_OK)
         return status;
     double *t = list->knots;
+    size_t to = old + added;
     for (size_t k = old; k-- > 0;) {
-        double knot = t[k];
+        double knot = t[k], below = k ? t[k - 1] : 0;
         t[--to] = knot;
-        if (k > 0 && split[k - 1])
-            t[--to] = 0.5 * (knot + t[k - 1]);
+        for (unsigned part = k ? parts[k - 1] : 0; part > 1; part--)
+            t[--to] = below + (knot - below) * (part - 1) / parts[k - 1];
     }
-    list->size += count;
+    list->size += added;
     return NURBS_OK;
 }

@@ -18,7 +18,7 @@ void knot_list_free(knot_list *list);
 /* Adds an interior knot not below the others. */
 nurbs_status knot_list_append(knot_list *list, double knot);
 
-/* Halves the knot intervals k, k + 1 with split[k] != 0, `count` in number. */
-nurbs_status knot_list_halve(knot_list *list, const unsigned char *split, size_t count);
+/* Divides the knot interval k, k + 1 into parts[k] equal parts (0 and 1: left as it is). */
+nurbs_status knot_list_divide(knot_list *list, const unsigned char *parts);
 
 #endif

@@ -1,5 +1,5 @@
 #include "error.h"
-#include "integrals.h"
+#include "hydro_parts.h"
 #include <nurbs/basis.h>
 
 #include <math.h>
@@ -42,8 +42,11 @@ static void add_point(const double *s, double weight, double level, patch_sums *
                    weight * (a[0] * b[1] - a[1] * b[0])};
     double flux = p[1] * n[1];
     sums->area += sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    for (int c = 0; c < 3; c++)
+    for (int c = 0; c < 3; c++) {
         sums->normal[c] += n[c];
+        sums->low[c] = fmin(sums->low[c], p[c]);
+        sums->high[c] = fmax(sums->high[c], p[c]);
+    }
     sums->y_ny += flux;
     sums->x_y_ny += p[0] * flux;
     sums->y_y_ny += p[1] * flux;
@@ -55,8 +58,11 @@ static void add_point(const double *s, double weight, double level, patch_sums *
 static void add_sums(const patch_sums *row, patch_sums *sums)
 {
     sums->area += row->area;
-    for (int c = 0; c < 3; c++)
+    for (int c = 0; c < 3; c++) {
         sums->normal[c] += row->normal[c];
+        sums->low[c] = fmin(sums->low[c], row->low[c]);
+        sums->high[c] = fmax(sums->high[c], row->high[c]);
+    }
     sums->y_ny += row->y_ny;
     sums->x_y_ny += row->x_y_ny;
     sums->y_y_ny += row->y_y_ny;
@@ -78,12 +84,12 @@ nurbs_status patch_integrate(const nurbs_surface *surface, double level, size_t 
     double *wu = u + nu, *v = wu + nu, *wv = v + nv, *block = wv + nv;
     composite_rule(surface, 0, order, nodes, weights, u, wu);
     composite_rule(surface, 1, order, nodes, weights, v, wv);
-    *sums = (patch_sums){0};
+    *sums = no_sums;
     for (size_t first = 0; first < nu && status == NURBS_OK; first += ROWS) {
         size_t rows = nu - first < ROWS ? nu - first : ROWS;
         status = nurbs_surface_eval_grid(surface, 1, rows, u + first, nv, v, block);
         for (size_t i = 0; i < rows && status == NURBS_OK; i++) {
-            patch_sums line = {0};
+            patch_sums line = no_sums;
             for (size_t j = 0; j < nv; j++)
                 add_point(block + 9 * (i * nv + j), wu[first + i] * wv[j], level, &line);
             add_sums(&line, sums);

@@ -2,7 +2,7 @@
  * the plane is found, and y dz is integrated over that parameter. Lines that end before the plane
  * (a stem or transom that is not a section) do not contribute. */
 #include "error.h"
-#include "integrals.h"
+#include "hydro_parts.h"
 #include <nurbs/basis.h>
 
 #include <math.h>

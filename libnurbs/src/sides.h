@@ -3,9 +3,9 @@
 
 #include <nurbs/status.h>
 
-/* Raises control points of a polynomial half hull from y < 0 to y = 0 where the surface itself
- * (sampled five times a knot span and direction) has y < 0. Returns the largest rise in *moved,
- * which bounds how far any point of the surface moves. Edges that lie in y = 0 stay there. */
+/* Moves control points of a polynomial half hull as little as needed where the surface has y < 0,
+ * until it has none (to 1e-12 of its breadth). Edges that lie in y = 0 stay there. *moved: the
+ * largest change of a control point, which bounds how far any point of the surface moves. */
 nurbs_status raise_to_side(const int degree[2], const size_t size[2], const double *knots_u,
                            const double *knots_v, double *points, double *moved);
 

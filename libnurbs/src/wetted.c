@@ -7,8 +7,8 @@
 #include "cut.h"
 #include "error.h"
 #include "interpolate.h"
-#include "knot_list.h"
 #include "sides.h"
+#include "tensor_refine.h"
 #include <nurbs/basis.h>
 #include <nurbs/section.h>
 
@@ -16,13 +16,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ROUNDS = 12 };
-
 typedef struct build {
     cut sections;
-    double target;   /* metres: allowed deviation along one direction */
-    double range[2]; /* of u */
-    double limit[2]; /* crossing at an end that is a point, else -1 */
+    double tolerance; /* metres */
+    double range[2];  /* of u */
+    double limit[2];  /* crossing at an end that is a point, else -1 */
     knot_list along[2];
     size_t kinks;
     double *kink;          /* u knots where the hull may break */
@@ -31,9 +29,10 @@ typedef struct build {
     double *net;           /* the result: [u][w][3] */
 } build;
 
-/* The section at u: T(u, w[n]) with points `stride` numbers apart. */
-static nurbs_status sample_section(build *work, double u, size_t n, const double *w, double *out)
+/* T(u, w[n]) for tensor_map. */
+static nurbs_status section_points(void *context, double u, size_t n, const double *w, double *out)
 {
+    build *work = context;
     double crossing;
     cut_kind kind = cut_section(&work->sections, u, &crossing);
     for (int e = 0; e < 2; e++)
@@ -45,32 +44,6 @@ static nurbs_status sample_section(build *work, double u, size_t n, const double
         return cut_refuse(&work->sections, u, kind);
     cut_points(&work->sections, crossing, n, w, out);
     return NURBS_OK;
-}
-
-/* Fills out[n[0]][n[1]][3] with T(u, w), or out[n[1]][n[0]][3] when `lengthwise` is 1: rows along
- * the direction of refinement come first. */
-static nurbs_status sample(build *work, int lengthwise, const size_t n[2],
-                           const double *const parameters[2], double *out)
-{
-    if (!lengthwise) {
-        for (size_t i = 0; i < n[0]; i++) {
-            nurbs_status status =
-                sample_section(work, parameters[0][i], n[1], parameters[1], out + 3 * n[1] * i);
-            if (status != NURBS_OK)
-                return status;
-        }
-        return NURBS_OK;
-    }
-    double *line = malloc(3 * n[1] * sizeof *line);
-    nurbs_status status =
-        line ? NURBS_OK : nurbs_fail(NURBS_ERROR_MEMORY, "no memory for a section");
-    for (size_t i = 0; i < n[0] && status == NURBS_OK; i++) {
-        status = sample_section(work, parameters[0][i], n[1], parameters[1], line);
-        for (size_t j = 0; j < n[1]; j++)
-            memcpy(out + 3 * (j * n[0] + i), line + 3 * j, 3 * sizeof *out);
-    }
-    free(line);
-    return status;
 }
 
 /* The hull's u knots inside the range, clamped at its ends; notes the knots of full multiplicity.
@@ -121,119 +94,12 @@ static nurbs_status start_w(build *work)
     return status;
 }
 
-/* Interpolates rows[list->size][m] given at the sites, in place. */
-static nurbs_status interpolate_rows(int degree, size_t n, const double *knots, const double *sites,
-                                     size_t m, double *rows)
-{
-    banded factors;
-    nurbs_status status = collocation_factor(degree, n, knots, sites, &factors);
-    if (status == NURBS_OK) {
-        banded_solve(&factors, m, rows);
-        banded_free(&factors);
-    }
-    return status;
-}
-
-/* Largest distance between the splines rows[list->size][3n] at t and the points [n][3]. */
-static double row_error(const knot_list *list, double t, size_t n, const double *rows,
-                        const double *points)
-{
-    double basis[NURBS_MAX_DEGREE + 1], worst = 0;
-    size_t p = (size_t)list->degree,
-           span = nurbs_basis_span(list->degree, list->size, list->knots, t, NULL);
-    nurbs_basis(list->degree, list->knots, span, t, basis);
-    rows += (span - p) * 3 * n;
-    for (size_t k = 0; k < 3 * n; k += 3) {
-        double square = 0;
-        for (size_t c = k; c < k + 3; c++) {
-            double difference = -points[c];
-            for (size_t a = 0; a <= p; a++)
-                difference += basis[a] * rows[a * 3 * n + c];
-            square += difference * difference;
-        }
-        worst = fmax(worst, square);
-    }
-    return sqrt(worst);
-}
-
-/* Where knot interval k is checked, far from the interpolation points: those of odd degrees lie
- * near the knots, those of even degrees near the middles of the spans. Returns the number of
- * places. */
-static size_t check_places(const knot_list *list, size_t k, double *places)
-{
-    double length = list->knots[k + 1] - list->knots[k];
-    size_t count = list->degree % 2 ? 1 : 2;
-    if (!(length > 0))
-        return 0;
-    for (size_t c = 0; places && c < count; c++)
-        places[c] = list->knots[k] + length * (count == 1 ? 0.5 : c ? 0.8 : 0.2);
-    return count;
-}
-
-/* One direction: splines through T at its Greville points, on the n lines `across` of the other
- * direction; halves the spans that are off and counts them. */
-static nurbs_status refine_once(build *work, int direction, size_t n, const double *across,
-                                size_t *halved)
-{
-    knot_list *list = &work->along[direction];
-    size_t intervals = list->size + (size_t)list->degree, m = 3 * n, count = list->size, checks = 0;
-    double *sites = malloc((count + 2 * intervals) * (1 + m) * sizeof *sites);
-    unsigned char *split = calloc(intervals, 1);
-    *halved = 0;
-    if (!sites || !split) {
-        free(sites);
-        free(split);
-        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory to fit %zu sections", count);
-    }
-    double *places = sites + count, *rows = places + 2 * intervals, *points = rows + count * m;
-    nurbs_greville(list->degree, count, list->knots, sites);
-    for (size_t k = 0; k < intervals; k++)
-        checks += check_places(list, k, places + checks);
-    const size_t at[2] = {direction ? n : count, direction ? count : n},
-                 between[2] = {direction ? n : checks, direction ? checks : n};
-    nurbs_status status = sample(
-        work, direction, at,
-        (const double *const[]){direction ? across : sites, direction ? sites : across}, rows);
-    if (status == NURBS_OK)
-        status = sample(
-            work, direction, between,
-            (const double *const[]){direction ? across : places, direction ? places : across},
-            points);
-    if (status == NURBS_OK)
-        status = interpolate_rows(list->degree, count, list->knots, sites, m, rows);
-    for (size_t k = 0, c = 0; k < intervals && status == NURBS_OK; k++) {
-        for (size_t last = c + check_places(list, k, NULL); c < last; c++)
-            split[k] |= row_error(list, places[c], n, rows, points + c * m) > work->target;
-        *halved += split[k];
-    }
-    if (status == NURBS_OK && *halved)
-        status = knot_list_halve(list, split, *halved);
-    free(sites);
-    free(split);
-    return status;
-}
-
-static nurbs_status refine(build *work)
-{
-    nurbs_status status = NURBS_OK;
-    for (int direction = 1; direction >= 0 && status == NURBS_OK; direction--) {
-        const knot_list *other = &work->along[!direction];
-        double *across = malloc(other->size * sizeof *across);
-        if (!across)
-            return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu parameters", other->size);
-        nurbs_greville(other->degree, other->size, other->knots, across);
-        size_t halved = 1;
-        for (int round = 0; round < ROUNDS && halved && status == NURBS_OK; round++)
-            status = refine_once(work, direction, other->size, across, &halved);
-        free(across);
-    }
-    return status;
-}
-
 /* Which lines w = constant have a kink at which of the hull's breaks. */
 static nurbs_status find_broken(build *work)
 {
     size_t n = work->along[1].size;
+    free(work->sites);
+    free(work->broken);
     work->sites = malloc(n * sizeof(double));
     work->broken = calloc(n * work->kinks + 1, 1);
     double *before = malloc(6 * n * sizeof *before);
@@ -290,37 +156,17 @@ static nurbs_status fit_lines(build *work, size_t first, size_t last)
     double *sites = knots + list->size + p + 1, *rows = sites + list->size + 1;
     size_t n = reduced_knots(work, work->broken + first * work->kinks, knots);
     nurbs_greville(list->degree, n, knots, sites);
-    nurbs_status status = sample(work, 0, (const size_t[]){n, last - first},
-                                 (const double *const[]){sites, work->sites + first}, rows);
+    const tensor_map map = {section_points, work};
+    nurbs_status status = tensor_sample(&map, 0, (const size_t[]){n, last - first},
+                                        (const double *const[]){sites, work->sites + first}, rows);
     if (status == NURBS_OK)
-        status = interpolate_rows(list->degree, n, knots, sites, m, rows);
+        status = tensor_solve(list->degree, n, knots, sites, m, rows);
     for (size_t k = 0; k < list->size + p + 1 && status == NURBS_OK; k++)
         if (k >= n + p + 1 || knots[k] != list->knots[k])
             spline_insert_rows(list->degree, &n, knots, m, rows, list->knots[k]);
     for (size_t i = 0; i < list->size && status == NURBS_OK; i++)
         memcpy(work->net + 3 * (i * columns + first), rows + i * m, m * sizeof *rows);
     free(knots);
-    return status;
-}
-
-/* Across the lines: replaces the points at the w sites by control points. */
-static nurbs_status fit_sections(build *work)
-{
-    size_t rows = work->along[0].size, columns = work->along[1].size;
-    double *turned = malloc(3 * rows * columns * sizeof *turned);
-    if (!turned)
-        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu x %zu points", rows, columns);
-    for (size_t i = 0; i < rows; i++)
-        for (size_t j = 0; j < columns; j++)
-            memcpy(turned + 3 * (j * rows + i), work->net + 3 * (i * columns + j),
-                   3 * sizeof *turned);
-    nurbs_status status = interpolate_rows(work->along[1].degree, columns, work->along[1].knots,
-                                           work->sites, 3 * rows, turned);
-    for (size_t i = 0; i < rows && status == NURBS_OK; i++)
-        for (size_t j = 0; j < columns; j++)
-            memcpy(work->net + 3 * (i * columns + j), turned + 3 * (j * rows + i),
-                   3 * sizeof *turned);
-    free(turned);
     return status;
 }
 
@@ -358,14 +204,15 @@ static int is_half_hull(const nurbs_surface *hull)
     return -low <= 0.05 * high;
 }
 
-static nurbs_status assemble(build *work, nurbs_surface **wetted)
+/* Fills the net of all lines. */
+static nurbs_status fit_net(build *work)
 {
     const size_t size[2] = {work->along[0].size, work->along[1].size};
-    double moved;
+    free(work->net);
     work->net = malloc(3 * size[0] * size[1] * sizeof(double));
     if (!work->net)
         return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu x %zu points", size[0], size[1]);
-    nurbs_status status = NURBS_OK;
+    nurbs_status status = find_broken(work);
     for (size_t first = 0, last; first < size[1] && status == NURBS_OK; first = last) {
         for (last = first + 1; last < size[1]; last++)
             if (memcmp(work->broken + first * work->kinks, work->broken + last * work->kinks,
@@ -374,23 +221,116 @@ static nurbs_status assemble(build *work, nurbs_surface **wetted)
         status = fit_lines(work, first, last);
     }
     if (status == NURBS_OK)
-        status = fit_sections(work);
-    if (status != NURBS_OK)
-        return status;
-    settle_edges(work);
-    if (is_half_hull(work->sections.hull))
-        status = raise_to_side(work->sections.degree, size, work->along[0].knots,
-                               work->along[1].knots, work->net, &moved);
+        status = tensor_solve_across(&work->along[1], size[0], work->sites, work->net);
     if (status == NURBS_OK)
-        status = nurbs_surface_create(work->sections.degree, size, work->along[0].knots,
-                                      work->along[1].knots, work->net, NULL, wetted);
+        settle_edges(work);
+    return status;
+}
+
+/* How far setting control points with y < 0 to y = 0 moves the surface where the basis function of
+ * point (i,j) is about largest. */
+static double clip_change(const build *work, size_t i, size_t j)
+{
+    double basis[2][NURBS_MAX_DEGREE + 1], change = 0;
+    size_t first[2];
+    for (int d = 0; d < 2; d++) {
+        const knot_list *list = &work->along[d];
+        double greville = 0;
+        for (int k = 1; k <= list->degree; k++)
+            greville += list->knots[(d ? j : i) + (size_t)k] / list->degree;
+        size_t span = nurbs_basis_span(list->degree, list->size, list->knots, greville, NULL);
+        nurbs_basis(list->degree, list->knots, span, greville, basis[d]);
+        first[d] = span - (size_t)list->degree;
+    }
+    for (int a = 0; a <= work->along[0].degree; a++)
+        for (int b = 0; b <= work->along[1].degree; b++)
+            change += basis[0][a] * basis[1][b] *
+                      fmax(0, -work->net[3 * ((first[0] + (size_t)a) * work->along[1].size +
+                                              first[1] + (size_t)b) +
+                                         1]);
+    return change;
+}
+
+/* Marks the knot intervals about control points that cannot be clipped within `allowed`, in both
+ * directions; returns their number. */
+static size_t mark_clips(const build *work, double allowed, unsigned char *const parts[2])
+{
+    size_t marked = 0, columns = work->along[1].size;
+    for (size_t i = 0; i < work->along[0].size; i++)
+        for (size_t j = 0; j < columns; j++) {
+            if (!(work->net[3 * (i * columns + j) + 1] < 0) || !(clip_change(work, i, j) > allowed))
+                continue;
+            marked++;
+            for (int d = 0; d < 2; d++)
+                for (size_t k = (d ? j : i) + 1; k < (d ? j : i) + (size_t)work->along[d].degree;
+                     k++)
+                    parts[d][k] = work->along[d].knots[k + 1] > work->along[d].knots[k] ? 2 : 1;
+        }
+    return marked;
+}
+
+/* Divides the spans about control points that mark_clips() finds; *marked: their number. */
+static nurbs_status divide_about_clips(build *work, size_t *marked)
+{
+    nurbs_status status = NURBS_OK;
+    unsigned char *parts[2];
+    for (int d = 0; d < 2; d++)
+        parts[d] = calloc(work->along[d].size + (size_t)work->along[d].degree + 1, 1);
+    *marked = 0;
+    if (parts[0] && parts[1])
+        *marked = mark_clips(work, 0.3 * work->tolerance, parts);
+    else
+        status = nurbs_fail(NURBS_ERROR_MEMORY, "no memory for knots");
+    for (int d = 0; d < 2 && *marked && status == NURBS_OK; d++)
+        status = knot_list_divide(&work->along[d], parts[d]);
+    free(parts[0]);
+    free(parts[1]);
+    return status;
+}
+
+/* Gives a half hull a control net with y >= 0, which every later step can keep. First the surface
+ * is brought to y >= 0, then what is left of the net is clipped: the net follows the surface closer
+ * with every division of its spans, so a few of them make clipping harmless. */
+static nurbs_status settle_side(build *work)
+{
+    enum { DIVISIONS = 3 };
+    for (int round = 0;; round++) {
+        size_t marked = 0;
+        double moved;
+        nurbs_status status = raise_to_side(
+            work->sections.degree, (const size_t[]){work->along[0].size, work->along[1].size},
+            work->along[0].knots, work->along[1].knots, work->net, &moved);
+        if (status == NURBS_OK && round < DIVISIONS)
+            status = divide_about_clips(work, &marked);
+        if (status != NURBS_OK)
+            return status;
+        if (marked == 0)
+            break;
+        status = fit_net(work);
+        if (status != NURBS_OK)
+            return status;
+    }
+    for (size_t k = 0; k < work->along[0].size * work->along[1].size; k++)
+        work->net[3 * k + 1] = fmax(work->net[3 * k + 1], 0);
+    return NURBS_OK;
+}
+
+static nurbs_status assemble(build *work, nurbs_surface **wetted)
+{
+    nurbs_status status = fit_net(work);
+    if (status == NURBS_OK && is_half_hull(work->sections.hull))
+        status = settle_side(work);
+    if (status == NURBS_OK)
+        status = nurbs_surface_create(
+            work->sections.degree, (const size_t[]){work->along[0].size, work->along[1].size},
+            work->along[0].knots, work->along[1].knots, work->net, NULL, wetted);
     return status;
 }
 
 nurbs_status nurbs_surface_wetted(const nurbs_surface *hull, double level, double tolerance,
                                   nurbs_surface **wetted)
 {
-    build work = {.target = tolerance / 2};
+    build work = {.tolerance = tolerance};
     *wetted = NULL;
     if (!isfinite(level))
         return nurbs_fail(NURBS_ERROR_ARGUMENT, "level %g is not finite", level);
@@ -405,9 +345,8 @@ nurbs_status nurbs_surface_wetted(const nurbs_surface *hull, double level, doubl
     if (status == NURBS_OK)
         status = start_w(&work);
     if (status == NURBS_OK)
-        status = refine(&work);
-    if (status == NURBS_OK)
-        status = find_broken(&work);
+        status =
+            tensor_refine(&(const tensor_map){section_points, &work}, 0.4 * tolerance, work.along);
     if (status == NURBS_OK)
         status = assemble(&work, wetted);
     if (status == NURBS_OK)

@@ -30,10 +30,12 @@ NURBS_API nurbs_status nurbs_surface_wetted(const nurbs_surface *hull, double le
  * place (u,v) if there is one and returns NURBS_ERROR_GEOMETRY; uv may be NULL. */
 NURBS_API nurbs_status nurbs_surface_check_fold(const nurbs_surface *surface, double uv[2]);
 
-/** A half hull lifted onto y >= 0: control points with y < 0 move to y = 0 wherever the surface
- * itself (sampled five times a knot span) would lie across the centre plane; everything else stays.
+/** A half hull lifted onto y >= 0: where the surface lies across the centre plane, control points
+ * near that place move by the least change that brings it back; edges in y = 0 and everything else
+ * stay. That no place is left is proved by Bernstein coefficients, to 1e-12 of the breadth.
  * Polynomial surfaces only.
- * @param moved  fills the largest rise in metres, a bound of the surface's change; NULL allowed */
+ * @param moved  fills the largest change of a control point in metres, a bound of the surface's
+ *               change; NULL allowed */
 NURBS_API nurbs_status nurbs_surface_raise_side(const nurbs_surface *surface,
                                                 nurbs_surface **result, double *moved);
 

@@ -1,8 +1,10 @@
 /* Pieces of the hydrostatics page. */
-#ifndef NURBS_INTEGRALS_INTERNAL_H
-#define NURBS_INTEGRALS_INTERNAL_H
+#ifndef NURBS_HYDRO_PARTS_H
+#define NURBS_HYDRO_PARTS_H
 
 #include <nurbs/integrals.h>
+
+#include <math.h>
 
 /* Sums over one patch of quantities times its area element dS or its oriented normal n dS =
  * (Su x Sv) du dv. */
@@ -10,8 +12,12 @@ typedef struct patch_sums {
     double area;
     double normal[3];
     double y_ny, x_y_ny, y_y_ny, z_y_ny;
-    double depth_nz; /* (level - z) n_z */
+    double depth_nz;        /* (level - z) n_z */
+    double low[3], high[3]; /* of the quadrature points */
 } patch_sums;
+
+static const patch_sums no_sums = {.low = {INFINITY, INFINITY, INFINITY},
+                                   .high = {-INFINITY, -INFINITY, -INFINITY}};
 
 /* Gauss quadrature with `order` points a span and direction. */
 nurbs_status patch_integrate(const nurbs_surface *surface, double level, size_t order,

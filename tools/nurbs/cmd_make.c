@@ -1,0 +1,132 @@
+#include "nurbs_tool.h"
+
+#include <jansson.h>
+#include <string.h>
+
+struct dimensions {
+    double length, beam, height, draft, depth;
+};
+
+static nurbs_status make_sphere(struct dimensions d, nurbs_surface **surface)
+{
+    double size = d.length > 0 ? d.length : 1;
+    return nurbs_make_ellipsoid(size, size, size, d.depth, surface);
+}
+
+/* Prolate of revolution about x. */
+static nurbs_status make_spheroid(struct dimensions d, nurbs_surface **surface)
+{
+    double beam = d.beam > 0 ? d.beam : 0.2 * (d.length > 0 ? d.length : 1);
+    return nurbs_make_ellipsoid(d.length > 0 ? d.length : 1, beam, beam, d.depth, surface);
+}
+
+static nurbs_status make_ellipsoid(struct dimensions d, nurbs_surface **surface)
+{
+    double length = d.length > 0 ? d.length : 1, beam = d.beam > 0 ? d.beam : 0.2 * length;
+    return nurbs_make_ellipsoid(length, beam, d.height > 0 ? d.height : 0.75 * beam, d.depth,
+                                surface);
+}
+
+static nurbs_status make_wigley(struct dimensions d, nurbs_surface **surface)
+{
+    double length = d.length > 0 ? d.length : 1;
+    return nurbs_make_wigley(length, d.beam > 0 ? d.beam : 0.1 * length,
+                             d.draft > 0 ? d.draft : 0.0625 * length, surface);
+}
+
+static const struct body {
+    const char *name;
+    nurbs_status (*make)(struct dimensions, nurbs_surface **);
+} bodies[] = {{"sphere", make_sphere},
+              {"spheroid", make_spheroid},
+              {"ellipsoid", make_ellipsoid},
+              {"wigley", make_wigley}};
+
+static int write_body(const struct body *body, struct dimensions d, const char *path, bool json)
+{
+    nurbs_surface *surface = NULL;
+    nurbs_patches *patches = NULL;
+    char note[120];
+    snprintf(note, sizeof note, "%s, exact; made by 'nurbs make'", body->name);
+    nurbs_status status = body->make(d, &surface);
+    if (status == NURBS_OK)
+        status = nurbs_patches_create(&patches);
+    if (status == NURBS_OK)
+        status = nurbs_patches_add(patches, surface);
+    if (status == NURBS_OK)
+        status = nurbs_patches_set_length(patches, d.length > 0 ? d.length : 1);
+    if (status == NURBS_OK)
+        status = nurbs_patches_set_note(patches, note);
+    if (status == NURBS_OK)
+        status = nurbs_patches_write(patches, path);
+    int code = status == NURBS_OK ? CLI_OK : library_failure();
+    if (code == CLI_OK && json)
+        code = print_json(json_pack("{s:s,s:s,s:f}", "file", path, "body", body->name, "length",
+                                    nurbs_patches_length(patches)));
+    nurbs_surface_free(surface);
+    nurbs_patches_free(patches);
+    return code;
+}
+
+static int run(int argc, char **argv)
+{
+    static const struct option options[] = {{"length", required_argument, NULL, 'L'},
+                                            {"beam", required_argument, NULL, 'B'},
+                                            {"height", required_argument, NULL, 'Z'},
+                                            {"draft", required_argument, NULL, 'D'},
+                                            {"depth", required_argument, NULL, 'H'},
+                                            {"output", required_argument, NULL, 'o'},
+                                            COMMON_OPTIONS,
+                                            END_OF_OPTIONS};
+    struct dimensions d = {0};
+    const char *output = NULL;
+    bool json = false;
+    int letter, code = CLI_OK;
+    while (code == CLI_OK && (letter = getopt_long(argc, argv, ":o:", options, NULL)) != -1)
+        switch (letter) {
+        case 'L':
+            code = length_option("length", optarg, &d.length);
+            break;
+        case 'B':
+            code = length_option("beam", optarg, &d.beam);
+            break;
+        case 'Z':
+            code = length_option("height", optarg, &d.height);
+            break;
+        case 'D':
+            code = length_option("draft", optarg, &d.draft);
+            break;
+        case 'H':
+            code = number_option("depth", optarg, &d.depth);
+            break;
+        case 'o':
+            output = optarg;
+            break;
+        default:
+            code = common_option(letter, argv, &json);
+        }
+    if (code == CLI_OK)
+        code = operand_count(argc, argv, 1, "one body: sphere, spheroid, ellipsoid or wigley");
+    if (code == CLI_OK && !output)
+        code = cli_usage("no output file: give -o FILE");
+    if (code != CLI_OK)
+        return code;
+    for (size_t k = 0; k < sizeof bodies / sizeof bodies[0]; k++)
+        if (strcmp(bodies[k].name, argv[optind]) == 0)
+            return write_body(&bodies[k], d, output, json);
+    return cli_usage("unknown body '%s', expected sphere, spheroid, ellipsoid or wigley",
+                     argv[optind]);
+}
+
+const subcommand make_command = {
+    "make", "make a body with an exact NURBS form", run,
+    "usage: nurbs make BODY -o FILE [options]\n"
+    "  Makes the half body (y >= 0) of a sphere, spheroid, ellipsoid or wigley hull.\n"
+    "  Bodies of revolution and ellipsoids: centre at x = 0, axis at z = -depth. Wigley:\n"
+    "  midship at x = 0, waterline at z = 0.\n"
+    "  --length L     length, or diameter of the sphere (1)\n"
+    "  --beam B       breadth (sphere: L; spheroid, ellipsoid 0.2 L; wigley 0.1 L)\n"
+    "  --height Z     height of the ellipsoid (0.75 B)\n"
+    "  --draft T      draft of the wigley hull (0.0625 L)\n"
+    "  --depth H      depth of the axis below z = 0 (0)\n"
+    "  -o, --output FILE\n"};

@@ -1,0 +1,192 @@
+#include "nurbs_tool.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* `skin` passes through every point; `fit` then drops what its tolerance allows and keeps in the
+ * file where the points are. */
+struct request {
+    nurbs_skin_options skin;
+    double tolerance, length;
+    const char *note, *output;
+    bool json;
+};
+
+static const struct {
+    const char *name;
+    nurbs_parametrization kind;
+} parametrizations[] = {{"uniform", NURBS_UNIFORM},
+                        {"chord", NURBS_CHORD},
+                        {"centripetal", NURBS_CENTRIPETAL},
+                        {"foley", NURBS_FOLEY}};
+
+static int parametrization_option(const char *text, nurbs_parametrization *kind)
+{
+    for (size_t k = 0; k < sizeof parametrizations / sizeof parametrizations[0]; k++)
+        if (strcmp(text, parametrizations[k].name) == 0) {
+            *kind = parametrizations[k].kind;
+            return CLI_OK;
+        }
+    return cli_usage("--parametrize '%s': expected uniform, chord, centripetal or foley", text);
+}
+
+static int parse(int argc, char **argv, struct request *request)
+{
+    static const struct option options[] = {{"degree", required_argument, NULL, 'd'},
+                                            {"parametrize", required_argument, NULL, 'p'},
+                                            {"kink-angle", required_argument, NULL, 'k'},
+                                            {"tolerance", required_argument, NULL, 't'},
+                                            {"lpp", required_argument, NULL, 'l'},
+                                            {"note", required_argument, NULL, 'n'},
+                                            {"output", required_argument, NULL, 'o'},
+                                            COMMON_OPTIONS,
+                                            END_OF_OPTIONS};
+    int letter, code = CLI_OK;
+    double degrees;
+    while (code == CLI_OK && (letter = getopt_long(argc, argv, ":o:", options, NULL)) != -1)
+        switch (letter) {
+        case 'd':
+            if (!cli_parse_int(optarg, &request->skin.degree) || request->skin.degree < 1 ||
+                request->skin.degree > 5)
+                code = cli_usage("--degree '%s': expected 1 to 5", optarg);
+            break;
+        case 'p':
+            code = parametrization_option(optarg, &request->skin.parametrize);
+            break;
+        case 'k':
+            code = number_option("kink-angle", optarg, &degrees);
+            request->skin.kink_angle = degrees * 3.14159265358979323846 / 180;
+            break;
+        case 't':
+            code = length_option("tolerance", optarg, &request->tolerance);
+            break;
+        case 'l':
+            code = length_option("lpp", optarg, &request->length);
+            break;
+        case 'n':
+            request->note = optarg;
+            break;
+        case 'o':
+            request->output = optarg;
+            break;
+        default:
+            code = common_option(letter, argv, &request->json);
+        }
+    if (code == CLI_OK)
+        code = operand_count(argc, argv, 1, "one grid file");
+    if (code == CLI_OK && !request->output)
+        code = cli_usage("no output file: give -o FILE");
+    return code;
+}
+
+/* Writes the surface with its parameters, length and note. */
+static int save(const nurbs_surface *surface, const nurbs_grid *grid, const double *u,
+                const double *v, const struct request *request)
+{
+    nurbs_patches *patches;
+    nurbs_status status = nurbs_patches_create(&patches);
+    if (status == NURBS_OK)
+        status = nurbs_patches_add(patches, surface);
+    if (status == NURBS_OK)
+        status = nurbs_patches_set_parameters(patches, 0, nurbs_grid_rows(grid), u,
+                                              nurbs_grid_columns(grid), v);
+    if (status == NURBS_OK)
+        status = nurbs_patches_set_length(patches, request->length);
+    if (status == NURBS_OK)
+        status = nurbs_patches_set_note(patches, request->note);
+    if (status == NURBS_OK)
+        status = nurbs_patches_write(patches, request->output);
+    int code = status == NURBS_OK ? CLI_OK : library_failure();
+    nurbs_patches_free(patches);
+    return code;
+}
+
+static int report(const nurbs_surface *surface, double worst, const struct request *request)
+{
+    size_t nu = nurbs_surface_size(surface, 0), nv = nurbs_surface_size(surface, 1);
+    if (request->json)
+        return print_json(json_pack("{s:s,s:[I,I],s:f}", "file", request->output, "size",
+                                    (json_int_t)nu, (json_int_t)nv, "deviation", worst));
+    printf("%s: %zu x %zu control points, largest distance to the grid %.3g m\n", request->output,
+           nu, nv, worst);
+    return CLI_OK;
+}
+
+static int skin_grid(const nurbs_grid *grid, const struct request *request)
+{
+    size_t rows = nurbs_grid_rows(grid), columns = nurbs_grid_columns(grid);
+    nurbs_surface *surface = NULL, *light = NULL;
+    double *u = malloc((rows + columns) * sizeof *u), worst = 0;
+    if (!u)
+        return cli_fail("out of memory");
+    nurbs_status status = nurbs_skin(grid, &request->skin, &surface);
+    if (status == NURBS_OK)
+        status = nurbs_skin_parameters(grid, &request->skin, u, u + rows);
+    if (status == NURBS_OK && request->tolerance > 0)
+        status = nurbs_surface_simplify(surface, request->tolerance,
+                                        NURBS_KEEP_EDGES | NURBS_KEEP_KINKS, &light, NULL);
+    const nurbs_surface *result = light ? light : surface;
+    int code = status == NURBS_OK ? CLI_OK : library_failure();
+    if (code == CLI_OK)
+        code = grid_deviation(result, grid, u, u + rows, &worst);
+    if (code == CLI_OK)
+        code = save(result, grid, u, u + rows, request);
+    if (code == CLI_OK)
+        code = report(result, worst, request);
+    nurbs_surface_free(surface);
+    nurbs_surface_free(light);
+    free(u);
+    return code;
+}
+
+static int run(int argc, char **argv, double tolerance)
+{
+    struct request request = {.tolerance = tolerance};
+    nurbs_grid *grid;
+    nurbs_skin_options_init(&request.skin);
+    int code = parse(argc, argv, &request);
+    if (code != CLI_OK)
+        return code;
+    if (nurbs_grid_read(argv[optind], &grid) != NURBS_OK)
+        return library_failure();
+    code = skin_grid(grid, &request);
+    nurbs_grid_free(grid);
+    return code;
+}
+
+static int run_skin(int argc, char **argv)
+{
+    return run(argc, argv, 0);
+}
+
+/* Without --tolerance: 1e-5 of the grid's extent in x would need the grid; a tenth of a millimetre
+ * is below what yards build to and models are cut to. */
+static int run_fit(int argc, char **argv)
+{
+    return run(argc, argv, 1e-4);
+}
+
+#define SKIN_OPTIONS                                                                               \
+    "  --degree P     1 to 5 (3)\n"                                                                \
+    "  --parametrize uniform|chord|centripetal|foley   (centripetal)\n"                            \
+    "  --kink-angle A degrees an edge line may turn at a station before it is kept as a\n"         \
+    "                 kink (20; 0: no kinks)\n"                                                    \
+    "  --lpp L        length between perpendiculars, kept in the file\n"                           \
+    "  --note TEXT    provenance, kept in the file\n"                                              \
+    "  -o, --output FILE\n"
+
+const subcommand skin_command = {
+    "skin", "pass a surface through a grid of sections", run_skin,
+    "usage: nurbs skin GRID.csv -o FILE [options]\n"
+    "  One surface through every point of the grid; u runs along the rows (sections), v along\n"
+    "  the columns. The parameters of the points are kept in the file for 'nurbs grid'.\n"
+    "  --tolerance T  drop control points as long as the surface moves less than T "
+    "metres\n" SKIN_OPTIONS};
+
+const subcommand fit_command = {
+    "fit", "fit a light surface to a grid within a tolerance", run_fit,
+    "usage: nurbs fit GRID.csv -o FILE [options]\n"
+    "  As 'nurbs skin', then knot removal: the surface stays within the tolerance of the\n"
+    "  interpolating one everywhere, so also of the points.\n"
+    "  --tolerance T  metres (1e-4)\n" SKIN_OPTIONS};

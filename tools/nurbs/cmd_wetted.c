@@ -1,0 +1,64 @@
+#include "nurbs_tool.h"
+
+static int run(int argc, char **argv)
+{
+    static const struct option options[] = {{"level", required_argument, NULL, 'z'},
+                                            {"tolerance", required_argument, NULL, 't'},
+                                            {"patch", required_argument, NULL, 'k'},
+                                            {"output", required_argument, NULL, 'o'},
+                                            COMMON_OPTIONS,
+                                            END_OF_OPTIONS};
+    double level = 0, tolerance = 1e-4;
+    size_t index = 0;
+    const char *output = NULL;
+    bool json = false;
+    int letter, code = CLI_OK;
+    while (code == CLI_OK && (letter = getopt_long(argc, argv, ":o:", options, NULL)) != -1)
+        switch (letter) {
+        case 'z':
+            code = number_option("level", optarg, &level);
+            break;
+        case 't':
+            code = length_option("tolerance", optarg, &tolerance);
+            break;
+        case 'k':
+            if (!cli_parse_size(optarg, &index))
+                code = cli_usage("--patch '%s': expected a number from 0", optarg);
+            break;
+        case 'o':
+            output = optarg;
+            break;
+        default:
+            code = common_option(letter, argv, &json);
+        }
+    if (code == CLI_OK)
+        code = operand_count(argc, argv, 1, "one NURBS file");
+    if (code == CLI_OK && !output)
+        code = cli_usage("no output file: give -o FILE");
+    if (code != CLI_OK)
+        return code;
+    nurbs_patches *patches = NULL;
+    const nurbs_surface *hull;
+    nurbs_surface *wetted = NULL;
+    code = load_surface(argv[optind], index, &patches, &hull);
+    if (code == CLI_OK && nurbs_surface_wetted(hull, level, tolerance, &wetted) != NURBS_OK)
+        code = library_failure();
+    if (code == CLI_OK)
+        code = save_surface(wetted, patches, output);
+    if (code == CLI_OK && json)
+        code = print_json(json_pack("{s:s,s:[I,I]}", "file", output, "size",
+                                    (json_int_t)nurbs_surface_size(wetted, 0),
+                                    (json_int_t)nurbs_surface_size(wetted, 1)));
+    nurbs_surface_free(wetted);
+    nurbs_patches_free(patches);
+    return code;
+}
+
+const subcommand wetted_command = {
+    "wetted", "cut a hull at the still water", run,
+    "usage: nurbs wetted FILE -o FILE [options]\n"
+    "  The part of one patch below a level, re-parametrised so that v = 0 is the waterline.\n"
+    "  --level Z      height of the water surface (0)\n"
+    "  --tolerance T  metres the surface may move (1e-4)\n"
+    "  --patch K      patch, counted from 0 (0)\n"
+    "  -o, --output FILE\n"};

@@ -1,0 +1,61 @@
+#include "nurbs_tool.h"
+
+#include <string.h>
+
+static const subcommand *const commands[] = {
+    &make_command, &info_command,     &eval_command,   &skin_command,         &fit_command,
+    &grid_command, &simplify_command, &wetted_command, &hydrostatics_command, &convert_command,
+};
+enum { COMMANDS = sizeof commands / sizeof commands[0] };
+
+static const subcommand *find_command(const char *name)
+{
+    for (size_t k = 0; k < COMMANDS; k++)
+        if (strcmp(commands[k]->name, name) == 0)
+            return commands[k];
+    return NULL;
+}
+
+static int print_help(void)
+{
+    printf("nurbs - make, look at, fit, simplify and convert NURBS hulls\n\n"
+           "usage: nurbs COMMAND [options] ...\n       nurbs COMMAND --help | --version\n\n"
+           "Commands:\n");
+    for (size_t k = 0; k < COMMANDS; k++)
+        printf("  %-13s %s\n", commands[k]->name, commands[k]->summary);
+    for (size_t k = 0; k < COMMANDS; k++)
+        printf("\n%s", commands[k]->help);
+    return cli_print("\nOptions of every command:\n"
+                     "  --json         print one JSON object on standard output and nothing else\n"
+                     "  --threads N    threads to use\n"
+                     "  --help         print this text, or the text of a command\n"
+                     "  --version      print the version\n\n"
+                     "Files: .json (NURBS file, see docs/nurbs.md), .igs and .iges are read and\n"
+                     "written; .stl, .vtu and .csv are written. Lengths are in metres.\n\n"
+                     "Exit status: 0 success, 1 the run failed, 2 wrong usage.\n");
+}
+
+int main(int argc, char **argv)
+{
+    cli_set_name("nurbs");
+    if (argc < 2)
+        return cli_usage("no command");
+    if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "help") == 0)
+        return print_help();
+    if (strcmp(argv[1], "--version") == 0)
+        return cli_version();
+    const subcommand *command = find_command(argv[1]);
+    if (!command)
+        return cli_usage("unknown command '%s'", argv[1]);
+    char name[40];
+    snprintf(name, sizeof name, "nurbs %s", command->name);
+    cli_set_name(name);
+    for (int k = 2; k < argc; k++) {
+        if (strcmp(argv[k], "--help") == 0)
+            return cli_print(command->help);
+        if (strcmp(argv[k], "--version") == 0)
+            return cli_version();
+    }
+    opterr = 0;
+    return command->run(argc - 1, argv + 1);
+}
