@@ -183,7 +183,7 @@ nurbs_status iges_integer(const iges_file *file, size_t entity, size_t k, long m
 
 nurbs_status iges_pointer(const iges_file *file, size_t entity, size_t k, size_t *index)
 {
-    long number;
+    long number = 0;
     nurbs_status status = iges_integer(file, entity, k, 0, &number);
     if (status != NURBS_OK)
         return status;

@@ -113,6 +113,33 @@ static int report(const nurbs_surface *surface, double worst, const struct reque
     return CLI_OK;
 }
 
+static bool is_half_hull(const nurbs_grid *grid)
+{
+    const double *points = nurbs_grid_points(grid);
+    size_t n = nurbs_grid_rows(grid) * nurbs_grid_columns(grid);
+    for (size_t k = 0; k < n; k++)
+        if (points[3 * k + 1] < 0)
+            return false;
+    return true;
+}
+
+/* Fewer control points, and y >= 0 where all points have it. */
+static nurbs_status lighten(const nurbs_surface *surface, const nurbs_grid *grid, double tolerance,
+                            nurbs_surface **light)
+{
+    nurbs_surface *raised;
+    nurbs_status status = nurbs_surface_simplify(surface, tolerance,
+                                                 NURBS_KEEP_EDGES | NURBS_KEEP_KINKS, light, NULL);
+    if (status != NURBS_OK || !is_half_hull(grid))
+        return status;
+    status = nurbs_surface_raise_side(*light, &raised, NULL);
+    if (status == NURBS_OK) {
+        nurbs_surface_free(*light);
+        *light = raised;
+    }
+    return status;
+}
+
 static int skin_grid(const nurbs_grid *grid, const struct request *request)
 {
     size_t rows = nurbs_grid_rows(grid), columns = nurbs_grid_columns(grid);
@@ -124,8 +151,7 @@ static int skin_grid(const nurbs_grid *grid, const struct request *request)
     if (status == NURBS_OK)
         status = nurbs_skin_parameters(grid, &request->skin, u, u + rows);
     if (status == NURBS_OK && request->tolerance > 0)
-        status = nurbs_surface_simplify(surface, request->tolerance,
-                                        NURBS_KEEP_EDGES | NURBS_KEEP_KINKS, &light, NULL);
+        status = lighten(surface, grid, request->tolerance, &light);
     const nurbs_surface *result = light ? light : surface;
     int code = status == NURBS_OK ? CLI_OK : library_failure();
     if (code == CLI_OK)
