@@ -12,7 +12,7 @@ static const double CLEARANCE = 1e-6;        /* of the length: above this a patc
 
 void hull_request_init(struct hull_request *request, const char *path)
 {
-    *request = (struct hull_request){path, 0.0, NAN, NAN, NAN};
+    *request = (struct hull_request){path, 0.0, NAN, NAN, NAN, false};
 }
 
 void hull_input_free(struct hull_input *input)
@@ -174,8 +174,11 @@ static int prepare(const nurbs_patches *file, const struct hull_request *request
         return cli_fail("%s: nothing lies below the still water, z = %g m", request->path,
                         input->level);
     snprintf(input->note, sizeof input->note, "%s at z = %g m, %zu of %zu control points%s",
-             any_cut ? "cut" : "used as it is", input->level, control_points(input->patches),
-             control_points(file), input->simplify_bound > 0 ? " after simplification" : "");
+             any_cut              ? "cut"
+             : request->unbounded ? "whole, water left out"
+                                  : "used as it is",
+             input->level, control_points(input->patches), control_points(file),
+             input->simplify_bound > 0 ? " after simplification" : "");
     return CLI_OK;
 }
 
@@ -215,7 +218,9 @@ int hull_input_read(const struct hull_request *request, struct hull_input *input
     double extent = upper[0] - lower[0];
     input->lpp = nurbs_patches_length(file);
     int code = CLI_OK;
-    if (!isnan(request->draft))
+    if (request->unbounded)
+        input->level = fmax(request->level, upper[2] + extent);
+    else if (!isnan(request->draft))
         code = level_of_draft(file, request, extent, &input->level);
     if (code == CLI_OK)
         code = prepare(file, request, extent, input);

@@ -76,8 +76,20 @@ static int report_progress(void *data, double fraction)
     return 0;
 }
 
+/* Parts per span on a level: each level is half as fine again as the one before, at least by one.
+ */
+static int refine_on_level(int first, size_t level)
+{
+    int parts = first;
+    for (size_t k = 1; k <= level; k++) {
+        int next = (int)lround(first * pow(1.5, (double)k));
+        parts = next > parts ? next : parts + 1;
+    }
+    return parts;
+}
+
 /* Settings of all cases of one level: Froude numbers slow, formulations fast. */
-static void fill_options(const struct solve_run *run, int refine, igabem_options *options)
+static void fill_options(const struct solve_run *run, size_t level, igabem_options *options)
 {
     const struct solve_request *request = run->request;
     igabem_formulation list[6];
@@ -86,7 +98,9 @@ static void fill_options(const struct solve_run *run, int refine, igabem_options
         options[c] = request->options;
         options[c].froude = request->fr[c / n];
         options[c].formulation = list[c % n];
-        options[c].refine = refine;
+        options[c].refine = refine_on_level(request->options.refine, level);
+        if (request->options.refine_v > 0)
+            options[c].refine_v = refine_on_level(request->options.refine_v, level);
         if (!isnan(request->x_s))
             options[c].stern_length =
                 fmax(0.0, (request->x_s - run->info.hydrostatics.x_aft) / run->info.length);
@@ -109,8 +123,7 @@ static int write_files(const struct solve_run *run, const igabem_solution *solut
 static int solve_level(struct solve_run *run, size_t level, igabem_options *options,
                        igabem_solution **solutions, struct cli_progress *progress)
 {
-    int refine = run->request->options.refine + (int)level;
-    fill_options(run, refine, options);
+    fill_options(run, level, options);
     for (size_t c = 0; c < run->cases; c++) {
         options[c].progress = report_progress;
         options[c].progress_data = progress;
@@ -120,7 +133,7 @@ static int solve_level(struct solve_run *run, size_t level, igabem_options *opti
         struct solve_result *result = &run->results[level * run->cases + c];
         status = igabem_forces_compute(solutions[c], &result->forces);
         result->options = *igabem_solution_options(solutions[c]);
-        result->refine = refine;
+        result->refine = result->options.refine;
     }
     int code = CLI_OK;
     if (status)

@@ -17,10 +17,11 @@ static const char help[] =
     "  --formulation NAME  auto, neumann-kelvin, neumann-kelvin-stern, double-body-kochin,\n"
     "                      hogner, michell, or all (auto)\n"
     "  --kernel NAME       kelvin, double-body or rankine (kelvin)\n"
-    "  --refine K          split every knot span of the hull in K (1)\n"
+    "  --refine K          split every knot span of the hull in K (1); --refine-v K in v only\n"
     "  --degree P          least degree of the source density (3)\n"
     "  --tolerance T       relative error asked of the quadrature (1e-5)\n"
-    "  --ladder N          N levels of refinement from --refine on: orders and Richardson's value\n"
+    "  --ladder N          N levels from --refine on, each half as fine again: orders and\n"
+    "                      Richardson's value\n"
     "  --sensitivity       also C_w at 0.85 and 1.15 of the cut-off angle\n"
     "\n"
     "Formulation (defaults by rule from the hull; docs/theory.md):\n"
@@ -61,6 +62,7 @@ enum option_value {
     OPT_FORMULATION,
     OPT_KERNEL,
     OPT_REFINE,
+    OPT_REFINE_V,
     OPT_DEGREE,
     OPT_TOLERANCE,
     OPT_LADDER,
@@ -97,6 +99,7 @@ static const struct option options[] = {
     {"formulation", required_argument, NULL, OPT_FORMULATION},
     {"kernel", required_argument, NULL, OPT_KERNEL},
     {"refine", required_argument, NULL, OPT_REFINE},
+    {"refine-v", required_argument, NULL, OPT_REFINE_V},
     {"degree", required_argument, NULL, OPT_DEGREE},
     {"tolerance", required_argument, NULL, OPT_TOLERANCE},
     {"ladder", required_argument, NULL, OPT_LADDER},
@@ -247,6 +250,8 @@ static int take(int opt, struct solve_request *r, bool *done)
         return parse_kernel(r);
     case OPT_REFINE:
         return integer(opt, 1, 64, &o->refine);
+    case OPT_REFINE_V:
+        return integer(opt, 1, 64, &o->refine_v);
     case OPT_DEGREE:
         return integer(opt, 1, 9, &o->degree);
     case OPT_TOLERANCE:
@@ -338,6 +343,7 @@ static int complete(int argc, char **argv, struct solve_request *r)
         return cli_usage("--formulation all compares wave resistances, expected --kernel kelvin");
     if (r->waves && r->options.kernel != IGABEM_KERNEL_KELVIN)
         return cli_usage("--waves needs a free surface, expected --kernel kelvin");
+    r->hull.unbounded = r->options.kernel == IGABEM_KERNEL_RANKINE;
     if (r->n_fr == 0) { /* other kernels: one result without a Froude number */
         r->fr = malloc(sizeof *r->fr);
         if (!r->fr)
