@@ -19,6 +19,11 @@ struct box_text {
     unsigned origin_count, length_count;
 };
 
+struct lattice_text {
+    char **count, **degree, **first, **last, **directions;
+    unsigned count_count, degree_count, first_count, last_count, directions_count;
+};
+
 struct shape_text {
     char *combination, *direction;
     char **phase, **bounds;
@@ -26,6 +31,7 @@ struct shape_text {
     struct box_text box;
     struct function_text *functions;
     unsigned functions_count;
+    struct lattice_text *lattice;
 };
 
 static const cyaml_schema_value_t number = {
@@ -57,14 +63,26 @@ static const cyaml_schema_field_t box_fields[] = {
     CYAML_FIELD_END,
 };
 
+static const cyaml_schema_field_t lattice_fields[] = {
+    NUMBERS(count, lattice_text, 3, CYAML_FLAG_DEFAULT),
+    NUMBERS(degree, lattice_text, 3, CYAML_FLAG_OPTIONAL),
+    NUMBERS(first, lattice_text, 3, CYAML_FLAG_DEFAULT),
+    NUMBERS(last, lattice_text, 3, CYAML_FLAG_DEFAULT),
+    CYAML_FIELD_SEQUENCE("directions", CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL,
+                         struct lattice_text, directions, &number, 1, 3),
+    CYAML_FIELD_END,
+};
+
 static const cyaml_schema_field_t shape_fields[] = {
     WORD(combination, shape_text),
     WORD(direction, shape_text),
     NUMBERS(phase, shape_text, 3, CYAML_FLAG_OPTIONAL),
     NUMBERS(bounds, shape_text, 2, CYAML_FLAG_OPTIONAL),
     CYAML_FIELD_MAPPING("box", CYAML_FLAG_OPTIONAL, struct shape_text, box, box_fields),
-    CYAML_FIELD_SEQUENCE("functions", CYAML_FLAG_POINTER, struct shape_text, functions,
-                         &function_entry, 1, CYAML_UNLIMITED),
+    CYAML_FIELD_SEQUENCE("functions", CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL, struct shape_text,
+                         functions, &function_entry, 1, CYAML_UNLIMITED),
+    CYAML_FIELD_MAPPING_PTR("lattice", CYAML_FLAG_POINTER_NULL | CYAML_FLAG_OPTIONAL,
+                            struct shape_text, lattice, lattice_fields),
     CYAML_FIELD_END,
 };
 
@@ -150,15 +168,14 @@ static bool read_function(const char *path, size_t i, const struct function_text
                                          &function->direction));
 }
 
-static bool interpret(const char *path, const struct shape_text *text, size_t npoints,
-                      const double *xyz, struct shape_definition *definition)
+static bool interpret_functions(const char *path, const struct shape_text *text,
+                                struct shape_definition *definition)
 {
-    if (!shape_definition_allocate(text->functions_count, definition)) {
+    if (!shape_definition_allocate(SHAPE_SINES, text->functions_count, definition)) {
         cli_fail("out of memory");
         return false;
     }
-    bool ok = read_combination(path, text->combination, &definition->combination) &&
-              read_box(path, &text->box, npoints, xyz, &definition->box);
+    bool ok = read_combination(path, text->combination, &definition->combination);
     for (size_t i = 0; ok && i < definition->n; i++) {
         double bounds[2];
         ok = read_function(path, i, &text->functions[i], text, &definition->functions[i], bounds);
@@ -167,18 +184,103 @@ static bool interpret(const char *path, const struct shape_text *text, size_t np
             definition->upper[i] = bounds[1];
         }
     }
+    return ok;
+}
+
+static bool read_indices(const char *path, const char *field, char *const *text, size_t out[3])
+{
+    for (int j = 0; j < 3; j++)
+        if (!cli_parse_size(text[j], &out[j])) {
+            cli_yaml_fail(path, field, "holds '%s', expected a whole number", text[j]);
+            return false;
+        }
+    return true;
+}
+
+/* The moved control points are those from `first` to `last`, both included, counted from 0. */
+static bool read_lattice(const char *path, const struct lattice_text *text, size_t count[3],
+                         size_t degree[3], size_t first[3], size_t last[3])
+{
+    if (!read_indices(path, "lattice.count", text->count, count) ||
+        !read_indices(path, "lattice.first", text->first, first) ||
+        !read_indices(path, "lattice.last", text->last, last) ||
+        (text->degree && !read_indices(path, "lattice.degree", text->degree, degree)))
+        return false;
+    for (int j = 0; j < 3; j++) {
+        if (!text->degree)
+            degree[j] = count[j] ? count[j] - 1 : 0;
+        if (first[j] > last[j] || last[j] >= count[j] || count[j] > 1000 || degree[j] > 1000) {
+            cli_yaml_fail(path, "lattice.last",
+                          "along %c: moved points %zu to %zu of %zu (0 is the first)", "xyz"[j],
+                          first[j], last[j], count[j]);
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool interpret_lattice(const char *path, const struct shape_text *text,
+                              struct shape_definition *definition)
+{
+    const struct lattice_text *lattice = text->lattice;
+    size_t count[3], degree[3] = {0, 0, 0}, first[3], last[3], n = 0;
+    unsigned axes = lattice->directions ? lattice->directions_count : 1;
+    int axis[3] = {1, 1, 1};
+    double bounds[2];
+    if (!text->bounds) {
+        cli_yaml_fail(path, "lattice", "has no bounds beside it");
+        return false;
+    }
+    if (!read_lattice(path, lattice, count, degree, first, last) ||
+        !read_numbers(path, "bounds", text->bounds, 2, bounds))
+        return false;
+    for (unsigned a = 0; lattice->directions && a < axes; a++)
+        if (!read_direction(path, "lattice.directions", lattice->directions[a], &axis[a]))
+            return false;
+    size_t points = (last[0] - first[0] + 1) * (last[1] - first[1] + 1) * (last[2] - first[2] + 1);
+    if (!shape_definition_allocate(SHAPE_LATTICE, points * axes, definition)) {
+        cli_fail("out of memory");
+        return false;
+    }
+    for (size_t i = first[0]; i <= last[0]; i++)
+        for (size_t j = first[1]; j <= last[1]; j++)
+            for (size_t k = first[2]; k <= last[2]; k++)
+                for (unsigned a = 0; a < axes; a++) {
+                    definition->lower[n] = bounds[0];
+                    definition->upper[n] = bounds[1];
+                    definition->moves[n++] = (galv_lattice_move){{i, j, k}, axis[a]};
+                }
+    for (int j = 0; j < 3; j++) {
+        definition->count[j] = count[j];
+        definition->degree[j] = (int)degree[j];
+    }
+    return true;
+}
+
+static bool interpret(const char *path, const struct shape_text *text, size_t npoints,
+                      const double *xyz, struct shape_definition *definition)
+{
+    *definition = (struct shape_definition){.n = 0};
+    if (!text->functions == !text->lattice) {
+        cli_fail("%s: expected either functions or a lattice", path);
+        return false;
+    }
+    bool ok = text->functions ? interpret_functions(path, text, definition)
+                              : interpret_lattice(path, text, definition);
+    ok = ok && read_box(path, &text->box, npoints, xyz, &definition->box);
     if (!ok)
         shape_definition_free(definition);
     return ok;
 }
 
-bool shape_definition_allocate(size_t n, struct shape_definition *definition)
+bool shape_definition_allocate(enum shape_kind kind, size_t n, struct shape_definition *definition)
 {
-    *definition = (struct shape_definition){.n = n};
-    definition->functions = calloc(n, sizeof *definition->functions);
+    *definition = (struct shape_definition){.kind = kind, .n = n};
+    definition->functions = kind == SHAPE_SINES ? calloc(n, sizeof *definition->functions) : NULL;
+    definition->moves = kind == SHAPE_LATTICE ? calloc(n, sizeof *definition->moves) : NULL;
     definition->lower = calloc(n, sizeof *definition->lower);
     definition->upper = calloc(n, sizeof *definition->upper);
-    if (definition->functions && definition->lower && definition->upper)
+    if ((definition->functions || definition->moves) && definition->lower && definition->upper)
         return true;
     shape_definition_free(definition);
     return false;
@@ -187,6 +289,7 @@ bool shape_definition_allocate(size_t n, struct shape_definition *definition)
 void shape_definition_free(struct shape_definition *definition)
 {
     free(definition->functions);
+    free(definition->moves);
     free(definition->lower);
     free(definition->upper);
     *definition = (struct shape_definition){.n = 0};
@@ -205,8 +308,17 @@ bool shape_definition_read(const char *path, size_t npoints, const double *xyz,
 
 galv_status shape_definition_create(const struct shape_definition *definition, galv_shape **shape)
 {
-    return galv_shape_sine(definition->n, definition->functions, &definition->box,
-                           definition->lower, definition->upper, definition->combination, shape);
+    if (definition->kind == SHAPE_SINES)
+        return galv_shape_sine(definition->n, definition->functions, &definition->box,
+                               definition->lower, definition->upper, definition->combination,
+                               shape);
+    galv_lattice lattice = {.box = definition->box};
+    for (int j = 0; j < 3; j++) {
+        lattice.count[j] = definition->count[j];
+        lattice.degree[j] = definition->degree[j];
+    }
+    return galv_shape_ffd(&lattice, definition->n, definition->moves, definition->lower,
+                          definition->upper, shape);
 }
 
 galv_shape *shape_yaml_read(const char *path, size_t npoints, const double *xyz)
@@ -219,52 +331,4 @@ galv_shape *shape_yaml_read(const char *path, size_t npoints, const double *xyz)
         cli_fail("%s: %s", path, galv_last_error());
     shape_definition_free(&definition);
     return shape;
-}
-
-/* Sections x girth when i,j run over a full rectangle, i slow; 0 otherwise. */
-static void find_rectangle(const struct cli_table *table, int ci, int cj, size_t *sections,
-                           size_t *girth)
-{
-    *sections = *girth = 0;
-    if (ci < 0 || cj < 0 || table->rows == 0)
-        return;
-    const double *v = table->values;
-    size_t columns = table->columns, n = 1;
-    while (n < table->rows && v[n * columns + (size_t)ci] == v[(size_t)ci])
-        n++;
-    if (table->rows % n)
-        return;
-    for (size_t r = 0; r < table->rows; r++)
-        if (v[r * columns + (size_t)ci] != v[(size_t)ci] + (double)(r / n) ||
-            v[r * columns + (size_t)cj] != v[(size_t)cj] + (double)(r % n))
-            return;
-    *sections = table->rows / n;
-    *girth = n;
-}
-
-bool hull_grid_read(const char *path, double **xyz, size_t *npoints, size_t *sections,
-                    size_t *girth)
-{
-    struct cli_table table;
-    if (!cli_table_read(path, &table))
-        return false;
-    int c[3] = {cli_table_column(&table, "x"), cli_table_column(&table, "y"),
-                cli_table_column(&table, "z")};
-    bool ok = c[0] >= 0 && c[1] >= 0 && c[2] >= 0 && table.rows > 0;
-    if (!ok)
-        cli_fail("%s: expected rows with the columns x, y and z", path);
-    *npoints = table.rows;
-    *xyz = ok ? malloc(3 * table.rows * sizeof **xyz) : NULL;
-    if (ok && !*xyz) {
-        cli_fail("out of memory");
-        ok = false;
-    }
-    for (size_t r = 0; ok && r < table.rows; r++)
-        for (size_t j = 0; j < 3; j++)
-            (*xyz)[3 * r + j] = table.values[r * table.columns + (size_t)c[j]];
-    if (ok)
-        find_rectangle(&table, cli_table_column(&table, "i"), cli_table_column(&table, "j"),
-                       sections, girth);
-    cli_table_free(&table);
-    return ok;
 }

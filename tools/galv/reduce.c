@@ -2,6 +2,7 @@
 
 #include "cli.h"
 #include "commands.h"
+#include "hull_grid.h"
 #include "shape_yaml.h"
 
 #include <stdlib.h>
