@@ -6,17 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { LINE_POINTS = 8, LINE_LEAST = 3, LINE_DEPTH = 40 };
-
-static size_t count_segments(const struct density *density)
-{
-    size_t n = 0;
-    for (size_t k = 0; k < density->patches; k++)
-        for (int edge = 0; edge < HULL_EDGES; edge++)
-            if (density->patch[k].hull.edge[edge] == HULL_EDGE_WATERLINE)
-                n += density->patch[k].spans[edge < HULL_V0];
-    return n;
-}
+enum { LINE_POINTS = 8, LINE_LEAST = 3, LINE_DEPTH = 40, LINE_TEST = 6 };
 
 static void bound_segment(struct line_segment *segment)
 {
@@ -31,39 +21,6 @@ static void bound_segment(struct line_segment *segment)
         segment->box[0] = fmin(segment->box[0], h[0] / h[3]);
         segment->box[1] = fmax(segment->box[1], h[0] / h[3]);
     }
-}
-
-igabem_status line_create(const struct density *density, const struct mesh *mesh, double limit,
-                          struct line **result)
-{
-    *result = NULL;
-    size_t n = count_segments(density);
-    struct line *line = calloc(1, sizeof *line);
-    if (line)
-        line->segment = malloc((n + 1) * sizeof *line->segment);
-    if (!line || !line->segment) {
-        line_free(line);
-        return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for the waterline");
-    }
-    line->limit = limit;
-    for (size_t k = 0; k < density->patches; k++) {
-        const struct density_patch *patch = &density->patch[k];
-        for (int edge = 0; edge < HULL_EDGES; edge++) {
-            if (patch->hull.edge[edge] != HULL_EDGE_WATERLINE)
-                continue;
-            int fixed = edge < HULL_V0 ? 0 : 1, end = edge == HULL_U1 || edge == HULL_V1;
-            size_t at = end ? patch->spans[fixed] - 1 : 0;
-            for (size_t i = 0; i < patch->spans[1 - fixed]; i++) {
-                size_t e = fixed == 0 ? at * patch->spans[1] + i : i * patch->spans[1] + at;
-                struct line_segment *segment = &line->segment[line->n++];
-                *segment = (struct line_segment){
-                    .element = &mesh->element[mesh->patch_base[k] + e], .fixed = fixed, .end = end};
-                bound_segment(segment);
-            }
-        }
-    }
-    *result = line;
-    return IGABEM_OK;
 }
 
 void line_free(struct line *line)
@@ -129,10 +86,15 @@ void line_nodes(const struct line *line, const struct line_segment *segment, con
 size_t line_cut(const struct line_segment *segment, double x, double stops[ELEMENT_SIDE + 2])
 {
     size_t n = 1;
-    stops[0] = 0.0;
-    if (segment->box[0] < x && segment->box[1] > x)
-        n += edge_roots(segment->element, segment->fixed, segment->end, x, stops + 1);
-    stops[n++] = 1.0;
+    double roots[ELEMENT_SIDE];
+    stops[0] = segment->range[0];
+    if (segment->box[0] < x && segment->box[1] > x) {
+        size_t count = edge_roots(segment->element, segment->fixed, segment->end, x, roots);
+        for (size_t k = 0; k < count; k++)
+            if (roots[k] > segment->range[0] && roots[k] < segment->range[1])
+                stops[n++] = roots[k];
+    }
+    stops[n++] = segment->range[1];
     return n;
 }
 
@@ -165,4 +127,97 @@ void line_near(const struct line *line, const struct line_segment *segment, cons
                const struct near_rule *rule, struct nodes *nodes)
 {
     divide(line, segment, range, rule, 0, nodes);
+}
+
+static int append(struct line *line, const struct line_segment *segment)
+{
+    if (line->n == line->capacity) {
+        size_t capacity = 2 * line->capacity + 64;
+        struct line_segment *more = realloc(line->segment, capacity * sizeof *more);
+        if (!more)
+            return 0;
+        line->segment = more;
+        line->capacity = capacity;
+    }
+    line->segment[line->n++] = *segment;
+    return 1;
+}
+
+/* Integral of the strength and its first moment over a range. */
+static void strength_moments(const struct line *line, const struct line_segment *segment,
+                             double from, double to, const struct gauss *gauss, double moment[2])
+{
+    moment[0] = moment[1] = 0.0;
+    for (int i = 0; i < LINE_TEST; i++) {
+        double a = from + (to - from) * gauss->node[LINE_TEST][i];
+        struct line_point point;
+        line_evaluate(line, segment, a, &point);
+        double part = gauss->weight[LINE_TEST][i] * (to - from) * point.strength * point.dl;
+        moment[0] += part;
+        moment[1] += part * a;
+    }
+}
+
+/* Appends the segment in halves until the halves agree with the whole to 1e-7 m of unit strength
+ * per metre of waterline. */
+static int append_smooth(struct line *line, const struct line_segment *segment, double tolerance,
+                         int depth, const struct gauss *gauss)
+{
+    double from = segment->range[0], to = segment->range[1], middle = 0.5 * (from + to);
+    double whole[2], first[2], second[2];
+    strength_moments(line, segment, from, to, gauss, whole);
+    strength_moments(line, segment, from, middle, gauss, first);
+    strength_moments(line, segment, middle, to, gauss, second);
+    double error =
+        fmax(fabs(first[0] + second[0] - whole[0]), fabs(first[1] + second[1] - whole[1]));
+    if (depth == LINE_DEPTH || error <= tolerance)
+        return append(line, segment);
+    struct line_segment half[2] = {*segment, *segment};
+    half[0].range[1] = half[1].range[0] = middle;
+    return append_smooth(line, &half[0], 0.5 * tolerance, depth + 1, gauss) &&
+           append_smooth(line, &half[1], 0.5 * tolerance, depth + 1, gauss);
+}
+
+static int append_edge(struct line *line, const struct density *density, const struct mesh *mesh,
+                       size_t k, int edge, const struct gauss *gauss)
+{
+    const struct density_patch *patch = &density->patch[k];
+    int fixed = edge < HULL_V0 ? 0 : 1, end = edge == HULL_U1 || edge == HULL_V1;
+    size_t at = end ? patch->spans[fixed] - 1 : 0;
+    for (size_t i = 0; i < patch->spans[1 - fixed]; i++) {
+        size_t e = fixed == 0 ? at * patch->spans[1] + i : i * patch->spans[1] + at;
+        struct line_segment segment = {.element = &mesh->element[mesh->patch_base[k] + e],
+                                       .fixed = fixed,
+                                       .end = end,
+                                       .range = {0.0, 1.0}};
+        bound_segment(&segment);
+        double tolerance = 1e-7 * (segment.box[1] - segment.box[0]);
+        if (!append_smooth(line, &segment, tolerance, 0, gauss))
+            return 0;
+    }
+    return 1;
+}
+
+igabem_status line_create(const struct density *density, const struct mesh *mesh, double limit,
+                          struct line **result)
+{
+    *result = NULL;
+    struct gauss gauss;
+    igabem_status status = gauss_fill(&gauss);
+    if (status != IGABEM_OK)
+        return status;
+    struct line *line = calloc(1, sizeof *line);
+    int complete = line != NULL;
+    if (line)
+        line->limit = limit;
+    for (size_t k = 0; k < density->patches && complete; k++)
+        for (int edge = 0; edge < HULL_EDGES && complete; edge++)
+            if (density->patch[k].hull.edge[edge] == HULL_EDGE_WATERLINE)
+                complete = append_edge(line, density, mesh, k, edge, &gauss);
+    if (!complete) {
+        line_free(line);
+        return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for the waterline");
+    }
+    *result = line;
+    return IGABEM_OK;
 }

@@ -172,12 +172,12 @@ static void surface_nodes(const struct mesh *mesh, const struct wave_rule *rule,
 static void waterline_nodes(const struct line *line, const struct wave_rule *rule,
                             struct nodes *nodes)
 {
-    const double whole[2] = {0.0, 1.0};
     for (size_t i = 0; i < line->n; i++) {
+        const struct line_segment *segment = &line->segment[i];
         if (rule->k0 > 0)
-            wave_line_nodes(rule, line, &line->segment[i], whole, nodes);
+            wave_line_nodes(rule, line, segment, segment->range, nodes);
         else
-            line_nodes(line, &line->segment[i], whole, PLAIN_POINTS, rule->gauss, nodes);
+            line_nodes(line, segment, segment->range, PLAIN_POINTS, rule->gauss, nodes);
     }
 }
 
