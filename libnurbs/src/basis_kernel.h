@@ -3,10 +3,12 @@
  *
  * Degree q on span s follows from degree q - 1 by
  *     N_{s-q+r,q} = a_{r-1} N_{s-q+r,q-1} + (1 - a_r) N_{s-q+1+r,q-1},
- *     a_r = (u - t_{s-q+1+r}) / (t_{s+r+1} - t_{s-q+1+r}),
- * and its derivative by q (N_{r-1} / h_{r-1} - N_r / h_r), h_r the same denominator (The NURBS
- * Book, eqs. 2.5 and 2.7). With the ratio a and 1 - a, all values are non-negative and those at a
- * knot of full multiplicity are exactly 0 or 1. */
+ *     a_r = (u - t_{s-q+1+r}) / h_r,   h_r = t_{s+r+1} - t_{s-q+1+r},
+ * and its derivative by q (N_{r-1} / h_{r-1} - N_r / h_r) (The NURBS Book, eqs. 2.5 and 2.7).
+ *
+ * The reciprocals do not depend on u: `inverse` holds that of h_r of degree q at (q - 1) * stride +
+ * r, rounded so that its product with h_r is not below 1. With a_r cut at 1 all values are
+ * non-negative, and exactly 0 or 1 at a knot of full multiplicity. */
 #ifndef NURBS_BASIS_KERNEL_H
 #define NURBS_BASIS_KERNEL_H
 
@@ -14,52 +16,66 @@
 
 #include <nurbs/basis.h>
 
+#include <float.h>
+
+/* 1 / h, or up to three units in the last place more. */
+NURBS_INLINE double reciprocal(double h)
+{
+    const double inverse = 1.0 / h;
+    return h * inverse < 1.0 ? inverse * (1.0 + DBL_EPSILON) : inverse;
+}
+
 /* Raises values of degree q - 1 (q of them) to degree q (q + 1) in place. */
-NURBS_INLINE void basis_raise(int q, const double *t, double u, double *values)
+NURBS_INLINE void basis_raise(int q, const double *t, const double *inverse, double u,
+                              double *values)
 {
     double saved = 0.0;
+    NURBS_UNROLL
     for (int r = 0; r < q; r++) {
-        const double left = t[r - q + 1];
-        const double a = (u - left) / (t[r + 1] - left);
+        const double ratio = (u - t[r - q + 1]) * inverse[r];
+        const double rising = ratio < 1.0 ? ratio : 1.0;
         const double value = values[r];
-        values[r] = saved + (1.0 - a) * value;
-        saved = a * value;
+        values[r] = saved + (1.0 - rising) * value;
+        saved = rising * value;
     }
     values[q] = saved;
 }
 
 /* Derivatives of the degree q functions from the degree q - 1 ones, in place. */
-NURBS_INLINE void basis_differentiate(int q, const double *t, double *values)
+NURBS_INLINE void basis_differentiate(int q, const double *inverse, double *values)
 {
     double saved = 0.0;
+    NURBS_UNROLL
     for (int r = 0; r < q; r++) {
-        const double term = q * values[r] / (t[r + 1] - t[r - q + 1]);
+        const double term = q * values[r] * inverse[r];
         values[r] = saved - term;
         saved = term;
     }
     values[q] = saved;
 }
 
+/* t = knots + span. */
 /* Fills values[order + 1][degree + 1]; rows above the degree are zero. */
-NURBS_INLINE void basis_evaluate(int degree, const double *knots, size_t span, double u, int order,
-                                 double *values)
+NURBS_INLINE void basis_evaluate(int degree, const double *t, const double *inverse, size_t stride,
+                                 double u, int order, double *values)
 {
-    const double *t = knots + span;
     const int width = degree + 1;
+    const int kept = order < degree ? order : degree;
     double current[NURBS_MAX_DEGREE + 1];
     current[0] = 1.0;
-    for (int q = 0;; q++) {
-        const int derivative = degree - q; /* the one that starts from degree q */
-        if (derivative <= order) {
-            double *row = values + derivative * width;
+    NURBS_UNROLL
+    for (int q = 0; q <= degree; q++) {
+        if (q > 0)
+            basis_raise(q, t, inverse + (size_t)(q - 1) * stride, u, current);
+        if (degree - q <= kept) /* where that derivative starts from */
             for (int r = 0; r <= q; r++)
-                row[r] = current[r];
-            for (int k = q + 1; k <= degree; k++)
-                basis_differentiate(k, t, row);
-        }
-        if (q == degree)
-            break;
-        basis_raise(q + 1, t, u, current);
+                values[(degree - q) * width + r] = current[r];
+    }
+    NURBS_UNROLL
+    for (int k = 1; k <= kept; k++) {
+        NURBS_UNROLL
+        for (int q = degree - k + 1; q <= degree; q++)
+            basis_differentiate(q, inverse + (size_t)(q - 1) * stride, values + k * width);
     }
     for (int k = degree + 1; k <= order; k++)
         for (int r = 0; r < width; r++)

@@ -1,4 +1,4 @@
-#include "basis_kernel.h"
+#include "axis_basis.h"
 #include "error.h"
 #include "object.h"
 
@@ -27,7 +27,7 @@ NURBS_INLINE void evaluate_one(const nurbs_curve *curve, int degree, int order, 
     const int kept = order < degree ? order : degree;
     double basis[(NURBS_MAX_DEGREE + 1) * (NURBS_MAX_DEGREE + 1)];
     double w[MAX_ORDER + 1];
-    basis_evaluate(degree, curve->axis.knots, span, u, kept, basis);
+    axis_basis(&curve->axis, degree, span, u, kept, basis);
     const double *net = curve->net + 4 * (span - (size_t)degree);
     for (int k = 0; k <= order; k++) {
         double sum[4] = {0.0, 0.0, 0.0, 0.0};

@@ -28,6 +28,10 @@ nurbs_status nurbs_knots_check(int degree, size_t n, const double *knots)
         if (i > 0 && knots[i] < knots[i - 1])
             return nurbs_fail(NURBS_ERROR_ARGUMENT, "knot %zu decreases: %.17g after %.17g", i,
                               knots[i], knots[i - 1]);
+        if (i > 0 && knots[i] > knots[i - 1] && !isfinite(1.0 / (knots[i] - knots[i - 1])))
+            return nurbs_fail(NURBS_ERROR_ARGUMENT,
+                              "knots %zu and %zu differ by %g, too little to divide by", i - 1, i,
+                              knots[i] - knots[i - 1]);
         multiplicity = i > 0 && knots[i] == knots[i - 1] ? multiplicity + 1 : 1;
         if (multiplicity > p + 1)
             return nurbs_fail(NURBS_ERROR_ARGUMENT,

@@ -1,4 +1,5 @@
 #include "object.h"
+#include "basis_kernel.h"
 #include "error.h"
 
 #include <nurbs/basis.h>
@@ -15,6 +16,7 @@ static size_t bucket_count(int degree, size_t size)
 size_t axis_bytes(int degree, size_t size)
 {
     return padded((size + (size_t)degree + 1) * sizeof(double)) +
+           padded((size_t)degree * (size + (size_t)degree) * sizeof(double)) +
            padded((bucket_count(degree, size) + 1) * sizeof(uint32_t));
 }
 
@@ -25,6 +27,12 @@ void axis_place(struct axis *axis, int degree, size_t size, const double *knots,
     axis->size = size;
     axis->knots = take(cursor, n_knots * sizeof(double));
     memcpy(axis->knots, knots, n_knots * sizeof(double));
+    axis->inverse = take(cursor, (size_t)degree * axis_stride(axis) * sizeof(double));
+    for (size_t q = 1; q <= (size_t)degree; q++)
+        for (size_t e = 0; e < axis_stride(axis); e++) {
+            const double h = e + 1 >= q ? knots[e + 1] - knots[e + 1 - q] : 0.0;
+            axis->inverse[(q - 1) * axis_stride(axis) + e] = h > 0.0 ? reciprocal(h) : 0.0;
+        }
     axis->buckets = bucket_count(degree, size);
     axis->bucket = take(cursor, (axis->buckets + 1) * sizeof(uint32_t));
     const double length = knots[size] - knots[0];

@@ -13,6 +13,7 @@ struct axis {
     int degree;
     size_t size;
     double *knots;    /* size + degree + 1 */
+    double *inverse;  /* 1 / (t[e+1] - t[e+1-q]) at (q - 1) * stride + e, degrees q = 1 ... */
     size_t buckets;   /* number of parts */
     double scale;     /* buckets / length of the domain */
     uint32_t *bucket; /* buckets + 1 */
@@ -66,6 +67,12 @@ nurbs_status points_check(size_t n, const double *points, const double *weights)
 
 /* net = (w p, w) of n points. */
 void homogenize(size_t n, const double *points, const double *weights, double *net);
+
+/* Of a row of axis.inverse. */
+static inline size_t axis_stride(const struct axis *axis)
+{
+    return axis->size + (size_t)axis->degree;
+}
 
 /* Checks the arguments that every change of a surface has, and clears the result. */
 nurbs_status modify_check(const nurbs_surface *surface, int direction, nurbs_surface **result);

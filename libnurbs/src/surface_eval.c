@@ -1,4 +1,4 @@
-#include "basis_kernel.h"
+#include "axis_basis.h"
 #include "error.h"
 #include "object.h"
 
@@ -54,8 +54,8 @@ NURBS_INLINE void evaluate_one(const nurbs_surface *s, int pu, int pv, int order
                                const size_t span[2], const double *uv, double *out)
 {
     double bu[3 * MAX_WIDTH], bv[3 * MAX_WIDTH];
-    basis_evaluate(pu, s->axis[0].knots, span[0], uv[0], order, bu);
-    basis_evaluate(pv, s->axis[1].knots, span[1], uv[1], order, bv);
+    axis_basis(&s->axis[0], pu, span[0], uv[0], order, bu);
+    axis_basis(&s->axis[1], pv, span[1], uv[1], order, bv);
     const size_t stride = 4 * s->axis[1].size;
     const double *net = s->net + (span[0] - (size_t)pu) * stride + 4 * (span[1] - (size_t)pv);
     const int wu = pu + 1, wv = pv + 1;
@@ -205,7 +205,7 @@ NURBS_INLINE void grid_row(const nurbs_surface *s, int pu, int pv, int order, in
     double bu[3 * MAX_WIDTH];
     quad column[3 * MAX_WIDTH];
     const size_t span_u = axis_span(&s->axis[0], u);
-    basis_evaluate(pu, s->axis[0].knots, span_u, u, order, bu);
+    axis_basis(&s->axis[0], pu, span_u, u, order, bu);
     size_t current = SIZE_MAX;
     for (size_t j = 0; j < columns; j++, bv += rows * wv) {
         if (span_v[j] != current) {
@@ -244,7 +244,7 @@ NURBS_INLINE void grid_all(const nurbs_surface *s, int pu, int pv, int order, in
         const size_t columns = nv - first < block ? nv - first : block;
         for (size_t j = 0; j < columns; j++) {
             span_v[j] = axis_span(&s->axis[1], v[first + j]);
-            basis_evaluate(pv, s->axis[1].knots, span_v[j], v[first + j], order, bv + j * values);
+            axis_basis(&s->axis[1], pv, span_v[j], v[first + j], order, bv + j * values);
         }
         for (size_t i = 0; i < nu; i++)
             grid_row(s, pu, pv, order, rational, u[i], columns, span_v, bv,
@@ -345,7 +345,7 @@ nurbs_status nurbs_surface_basis(const nurbs_surface *surface, int order, double
         if (!inside(axis, at[d]))
             return outside(surface, d, 0, at[d]);
         span[d] = axis_span(axis, at[d]);
-        nurbs_basis_derivatives(axis->degree, axis->knots, span[d], at[d], order, basis[d]);
+        axis_basis(axis, axis->degree, span[d], at[d], order, basis[d]);
     }
     static const int du[6] = {0, 1, 0, 2, 1, 0}, dv[6] = {0, 0, 1, 0, 1, 2};
     const size_t pu = (size_t)surface->axis[0].degree, pv = (size_t)surface->axis[1].degree;
