@@ -12,7 +12,7 @@ static const double CLEARANCE = 1e-6;        /* of the length: above this a patc
 
 void hull_request_init(struct hull_request *request, const char *path)
 {
-    *request = (struct hull_request){path, 0.0, NAN, NAN, NAN, false};
+    *request = (struct hull_request){path, 0.0, NAN, NAN, NAN, {-1, -1}, false};
 }
 
 void hull_input_free(struct hull_input *input)
@@ -155,12 +155,11 @@ static int prepare(const nurbs_patches *file, const struct hull_request *request
 {
     double tolerance = request->simplify;
     nurbs_status status = nurbs_patches_create(&input->patches);
-    int any_cut = 0;
     for (size_t p = 0; !status && p < nurbs_patches_count(file); p++) {
         nurbs_surface *wetted;
         int cut;
         status = wet_patch(nurbs_patches_get(file, p), input->level, length, &cut, &wetted);
-        any_cut |= cut;
+        input->cut |= cut;
         double relative = isnan(tolerance) ? (cut ? DEFAULT_SIMPLIFY : 0.0) : tolerance;
         if (!status && wetted && relative > 0)
             status = simplify_patch(&wetted, relative * length, &input->simplify_bound);
@@ -174,12 +173,22 @@ static int prepare(const nurbs_patches *file, const struct hull_request *request
         return cli_fail("%s: nothing lies below the still water, z = %g m", request->path,
                         input->level);
     snprintf(input->note, sizeof input->note, "%s at z = %g m, %zu of %zu control points%s",
-             any_cut              ? "cut"
+             input->cut           ? "cut"
              : request->unbounded ? "whole, water left out"
                                   : "used as it is",
              input->level, control_points(input->patches), control_points(file),
              input->simplify_bound > 0 ? " after simplification" : "");
     return CLI_OK;
+}
+
+/* Knots removed for the shape's sake leave spans too long for the density. */
+static igabem_status divide(const struct hull_request *request, struct hull_input *input)
+{
+    static const int usual[2] = {24, 8};
+    const int *elements = request->elements[0] < 0 ? usual : request->elements;
+    if (elements[0] == 0 || (request->elements[0] < 0 && !input->cut))
+        return IGABEM_OK;
+    return igabem_hull_divide(input->hull, elements[0], elements[1]);
 }
 
 static int create_hull(const struct hull_request *request, double lpp, struct hull_input *input)
@@ -199,6 +208,8 @@ static int create_hull(const struct hull_request *request, double lpp, struct hu
     double length = isnan(request->length) ? lpp : request->length;
     if (!status && length > 0)
         status = igabem_hull_set_length(input->hull, length);
+    if (!status)
+        status = divide(request, input);
     if (status)
         return cli_fail("%s: %s", request->path, igabem_last_error());
     return CLI_OK;

@@ -38,6 +38,9 @@ static const char help[] =
     "  --level Z           z of the still water in the file (0); --draft T sets it by keel draft\n"
     "  --simplify TOL      knot removal tolerance over the length (1e-4 if the hull is cut), 0 "
     "none\n"
+    "  --elements N,M      divide long knot spans: N along the hull, M around it (24,8 if the "
+    "hull\n"
+    "                      is cut), none\n"
     "  --gravity G         m/s^2 (9.80665);  --density RHO kg/m^3 (1000)\n"
     "  --viscosity NU      m^2/s, for the total resistance by ITTC-57 (1.1386e-6)\n"
     "  --form-factor K     (0)\n"
@@ -78,6 +81,7 @@ enum option_value {
     OPT_LEVEL,
     OPT_DRAFT,
     OPT_SIMPLIFY,
+    OPT_ELEMENTS,
     OPT_GRAVITY,
     OPT_DENSITY,
     OPT_VISCOSITY,
@@ -115,6 +119,7 @@ static const struct option options[] = {
     {"level", required_argument, NULL, OPT_LEVEL},
     {"draft", required_argument, NULL, OPT_DRAFT},
     {"simplify", required_argument, NULL, OPT_SIMPLIFY},
+    {"elements", required_argument, NULL, OPT_ELEMENTS},
     {"gravity", required_argument, NULL, OPT_GRAVITY},
     {"density", required_argument, NULL, OPT_DENSITY},
     {"viscosity", required_argument, NULL, OPT_VISCOSITY},
@@ -225,6 +230,24 @@ static int parse_grid(struct solve_request *request)
     return ok ? CLI_OK : cli_usage("--waves-grid: '%s', expected two counts N,M >= 2", optarg);
 }
 
+static int parse_elements(struct solve_request *request)
+{
+    double *list = NULL;
+    size_t n = 0;
+    int *elements = request->hull.elements;
+    elements[0] = elements[1] = 0;
+    if (strcmp(optarg, "none") == 0)
+        return CLI_OK;
+    int ok = cli_parse_list(optarg, &list, &n) && n == 2 && list[0] >= 1 && list[1] >= 1 &&
+             list[0] <= 1000 && list[1] <= 1000;
+    for (int k = 0; ok && k < 2; k++)
+        elements[k] = (int)list[k];
+    free(list);
+    return ok ? CLI_OK
+              : cli_usage("--elements: '%s', expected two counts N,M from 1 to 1000, or none",
+                          optarg);
+}
+
 static int parse_box(struct solve_request *request)
 {
     double *list = NULL;
@@ -284,6 +307,8 @@ static int take(int opt, struct solve_request *r, bool *done)
         return number(opt, 0, false, &r->hull.draft);
     case OPT_SIMPLIFY:
         return number(opt, 0, true, &r->hull.simplify);
+    case OPT_ELEMENTS:
+        return parse_elements(r);
     case OPT_GRAVITY:
         return number(opt, 0, false, &o->gravity);
     case OPT_DENSITY:
