@@ -431,10 +431,15 @@ double thinning_balance(struct thinning *t, double goal, int steps)
 {
     respect_walls(t);
     thinning_difference(t);
-    double largest = thinning_largest(t);
+    double largest = thinning_largest(t), previous = largest;
     for (int s = 0; s < steps && largest > goal; s++) {
         balance_step(t, 0.95 * goal); /* aiming inside ends after finitely many steps */
+        previous = largest;
         largest = thinning_largest(t);
+        /* The excess shrinks about geometrically: stop when it will not vanish in time. */
+        const double rate = (largest - goal) / (previous - goal);
+        if (s >= 2 && (largest - goal) * pow(rate, steps - s) > 0.02 * goal)
+            break;
     }
     return largest;
 }
