@@ -357,7 +357,9 @@ void cell_nodes(const struct domain *domain, const double rect[4], const int n[2
             nodes->y[at] = point[1];
             nodes->z[at] = point[2];
             double size = sqrt(ax * ax + ay * ay + az * az);
-            nodes->g[at] = jacobian * gauss->weight[n[0]][i] * inverse * size;
+            nodes->g[at] = jacobian * gauss->weight[n[0]][i] * size;
+            if (element->rational)
+                nodes->g[at] *= inverse;
             if (nodes->with_normals) {
                 double turn = (along == 0 ? element->sign : -element->sign) / size;
                 const double normal[3] = {turn * ax, turn * ay, turn * az};
@@ -427,27 +429,31 @@ void cell_extent(const struct domain *domain, const double rect[4], double centr
     }
 }
 
-void nodes_fold(const struct nodes *nodes, const struct element *element, double *f)
+/* Spline functions of one direction from Bernstein polynomials. */
+static void extract(const double *extraction, size_t n, const double *values, double *out)
 {
-    size_t m = (size_t)element->degree[0] + 1, n = (size_t)element->degree[1] + 1;
-    for (size_t i = 0; i < nodes->n; i++, f += m * n) {
-        const double *bu = nodes->bu + i * nodes->side[0], *bv = nodes->bv + i * nodes->side[1];
-        double u[ELEMENT_SIDE], v[ELEMENT_SIDE];
-        for (size_t a = 0; a < m; a++) {
-            u[a] = 0.0;
-            for (size_t k = 0; k < m; k++)
-                u[a] += element->extraction[0][a * m + k] * bu[k];
+    for (size_t a = 0; a < n; a++) {
+        out[a] = 0.0;
+        for (size_t k = 0; k < n; k++)
+            out[a] += extraction[a * n + k] * values[k];
+    }
+}
+
+void nodes_fold(const struct nodes *nodes, double *f)
+{
+    for (size_t e = 0; e < nodes->blocks; e++) {
+        const struct element *element = nodes->block[e].element;
+        size_t m = (size_t)element->degree[0] + 1, n = (size_t)element->degree[1] + 1;
+        for (size_t i = nodes->block[e].begin; i < nodes->block[e].end; i++, f += m * n) {
+            double u[ELEMENT_SIDE], v[ELEMENT_SIDE];
+            extract(element->extraction[0], m, nodes->bu + i * nodes->side[0], u);
+            extract(element->extraction[1], n, nodes->bv + i * nodes->side[1], v);
+            for (size_t a = 0; a < m; a++)
+                for (size_t b = 0; b < n; b++) {
+                    double w = element->weight ? element->weight[a * element->stride + b] : 1.0;
+                    f[a * n + b] = w * u[a] * v[b] * nodes->g[i];
+                }
         }
-        for (size_t b = 0; b < n; b++) {
-            v[b] = 0.0;
-            for (size_t k = 0; k < n; k++)
-                v[b] += element->extraction[1][b * n + k] * bv[k];
-        }
-        for (size_t a = 0; a < m; a++)
-            for (size_t b = 0; b < n; b++) {
-                double w = element->weight ? element->weight[a * element->stride + b] : 1.0;
-                f[a * n + b] = w * u[a] * v[b] * nodes->g[i];
-            }
     }
 }
 

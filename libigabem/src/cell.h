@@ -82,9 +82,9 @@ void point_node(const struct element *element, double s, double t, double weight
 void cell_extent(const struct domain *domain, const double rect[4], double centre[3],
                  double half[2]);
 
-/* Strength of every node for a unit coefficient of each spline function of its element, all nodes
- * being on that element: fills f[node][function]. */
-void nodes_fold(const struct nodes *nodes, const struct element *element, double *f);
+/* Strength of every node for a unit coefficient of each spline function of its element: fills
+ * f[node][function], one row length for all, so the elements must have equal degrees. */
+void nodes_fold(const struct nodes *nodes, double *f);
 
 /* Integrals of `fields` kernels (values k[f * stride + node]) over the blocks against the spline
  * basis, added to rows[f * row_stride + unknown]. */

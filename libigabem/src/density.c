@@ -26,27 +26,74 @@ static nurbs_status replace(nurbs_surface **surface, nurbs_status status, nurbs_
     return NURBS_OK;
 }
 
-static nurbs_status refine_direction(nurbs_surface **surface, int direction, int parts)
+/* Distinct knots of one direction of a surface; creates *breaks. */
+static size_t distinct_knots(const nurbs_surface *surface, int direction, double **breaks,
+                             int **multiplicities)
 {
-    size_t n = nurbs_surface_size(*surface, direction);
-    int degree = nurbs_surface_degree(*surface, direction);
-    const double *knots = nurbs_surface_knots(*surface, direction);
-    double *breaks = malloc(2 * (n + 1) * sizeof *breaks * (size_t)parts);
-    if (!breaks)
-        return NURBS_ERROR_MEMORY;
-    size_t count = nurbs_knots_distinct(degree, n, knots, breaks, NULL), added = 0;
-    double *inserted = breaks + n + 1;
-    for (size_t k = 0; k + 1 < count; k++)
-        for (int i = 1; i < parts; i++)
-            inserted[added++] = breaks[k] + (breaks[k + 1] - breaks[k]) * i / parts;
-    nurbs_surface *result = NULL;
-    nurbs_status status = nurbs_surface_insert(*surface, direction, added, inserted, &result);
-    free(breaks);
-    return replace(surface, status, result);
+    size_t n = nurbs_surface_size(surface, direction);
+    *breaks = malloc((n + 2) * sizeof **breaks);
+    *multiplicities = malloc((n + 2) * sizeof **multiplicities);
+    if (!*breaks || !*multiplicities)
+        return 0;
+    return nurbs_knots_distinct(nurbs_surface_degree(surface, direction), n,
+                                nurbs_surface_knots(surface, direction), *breaks, *multiplicities);
 }
 
-static nurbs_status refined_surface(const nurbs_surface *hull, int degree, const int refine[2],
-                                    nurbs_surface **surface)
+static int same(double a, double b, double scale)
+{
+    return fabs(a - b) <= 1e-9 * scale;
+}
+
+/* Inserts those of `count` increasing parameters that are no knots yet; one that is within rounding
+ * of a knot is replaced by it. */
+static nurbs_status insert_missing(nurbs_surface **surface, int direction, double *wanted,
+                                   size_t count)
+{
+    double *breaks = NULL, *missing = malloc((count + 1) * sizeof *missing);
+    int *multiplicities = NULL;
+    size_t n = distinct_knots(*surface, direction, &breaks, &multiplicities), added = 0, k = 0;
+    nurbs_status status = n && missing ? NURBS_OK : NURBS_ERROR_MEMORY;
+    for (size_t i = 0; i < count && status == NURBS_OK; i++) {
+        double scale = breaks[n - 1] - breaks[0];
+        while (k + 1 < n && breaks[k] < wanted[i] && !same(breaks[k], wanted[i], scale))
+            k++;
+        if (same(breaks[k], wanted[i], scale))
+            wanted[i] = breaks[k];
+        else
+            missing[added++] = wanted[i];
+    }
+    nurbs_surface *result = NULL;
+    if (status == NURBS_OK && added) {
+        status = nurbs_surface_insert(*surface, direction, added, missing, &result);
+        status = replace(surface, status, result);
+    }
+    free(breaks);
+    free(multiplicities);
+    free(missing);
+    return status;
+}
+
+/* Divides every span of one direction in equal parts. */
+static nurbs_status refine_direction(nurbs_surface **surface, int direction, int parts)
+{
+    double *breaks = NULL, *inserted = NULL;
+    int *multiplicities = NULL;
+    size_t count = distinct_knots(*surface, direction, &breaks, &multiplicities), added = 0;
+    nurbs_status status = NURBS_ERROR_MEMORY;
+    if (count)
+        inserted = malloc(count * (size_t)parts * sizeof *inserted);
+    for (size_t k = 0; inserted && k + 1 < count; k++)
+        for (int i = 1; i < parts; i++)
+            inserted[added++] = breaks[k] + (breaks[k + 1] - breaks[k]) * i / parts;
+    if (inserted)
+        status = insert_missing(surface, direction, inserted, added);
+    free(breaks);
+    free(multiplicities);
+    free(inserted);
+    return status;
+}
+
+static nurbs_status elevated_surface(const nurbs_surface *hull, int degree, nurbs_surface **surface)
 {
     nurbs_status status = nurbs_surface_copy(hull, surface);
     for (int d = 0; d < 2 && status == NURBS_OK; d++) {
@@ -56,22 +103,98 @@ static nurbs_status refined_surface(const nurbs_surface *hull, int degree, const
             status = nurbs_surface_elevate(*surface, d, by, &result);
             status = replace(surface, status, result);
         }
-        if (status == NURBS_OK && refine[d] > 1)
-            status = refine_direction(surface, d, refine[d]);
     }
     return status;
 }
 
-static int same(double a, double b, double scale)
+/* Clamped knots on uniform spans, their breaks made knots of the surface. */
+static nurbs_status uniform_knots(struct density_patch *patch, int d, int elements)
 {
-    return fabs(a - b) <= 1e-12 * scale;
+    size_t p = (size_t)patch->degree[d], m = (size_t)elements;
+    const double *domain = patch->hull.domain[d];
+    patch->size[d] = m + p;
+    patch->knots[d] = malloc((m + 2 * p + 1) * sizeof(double));
+    double *knots = patch->knots[d];
+    if (!knots)
+        return NURBS_ERROR_MEMORY;
+    for (size_t k = 0; k <= p; k++) {
+        knots[k] = domain[0];
+        knots[m + p + k] = domain[1];
+    }
+    for (size_t k = 1; k < m; k++)
+        knots[p + k] = domain[0] + (domain[1] - domain[0]) * (double)k / (double)m;
+    return insert_missing(&patch->surface, d, knots + p + 1, m - 1);
+}
+
+static nurbs_status hull_knots(struct density_patch *patch, int d)
+{
+    size_t n = nurbs_surface_size(patch->surface, d), count = n + (size_t)patch->degree[d] + 1;
+    patch->size[d] = n;
+    patch->knots[d] = malloc(count * sizeof(double));
+    if (!patch->knots[d])
+        return NURBS_ERROR_MEMORY;
+    memcpy(patch->knots[d], nurbs_surface_knots(patch->surface, d), count * sizeof(double));
+    return NURBS_OK;
+}
+
+/* Whether the normal of the surface turns suddenly at a parameter of direction d. */
+static int is_kink(const struct density_patch *patch, int d, double parameter)
+{
+    enum { SAMPLES = 7 };
+    const double *range = patch->hull.domain[d], *across = patch->hull.domain[1 - d];
+    double step = 1e-7 * (range[1] - range[0]);
+    for (int k = 0; k < SAMPLES; k++) {
+        double normal[2][3], area[2];
+        for (int side = 0; side < 2; side++) {
+            double uv[2], triples[9];
+            uv[d] = parameter + (side ? step : -step);
+            uv[1 - d] = across[0] + (across[1] - across[0]) * (k + 0.5) / SAMPLES;
+            if (nurbs_surface_eval(patch->surface, 1, 1, uv, triples) != NURBS_OK)
+                return 1;
+            hull_normal(&patch->hull, triples, normal[side], &area[side]);
+        }
+        double cosine =
+            normal[0][0] * normal[1][0] + normal[0][1] * normal[1][1] + normal[0][2] * normal[1][2];
+        if (cosine < 1.0 - 1e-6)
+            return 1;
+    }
+    return 0;
+}
+
+/* Elements end at every knot, panels at those of the density and where the shape is only C0. */
+static nurbs_status find_breaks(struct density_patch *patch, int d)
+{
+    int *multiplicities = NULL;
+    size_t n = distinct_knots(patch->surface, d, &patch->breaks[d], &multiplicities), count = 0;
+    double *panels = malloc((n + 1) * sizeof *panels);
+    const double *knots = patch->knots[d];
+    patch->panel_breaks[d] = panels;
+    if (!n || !panels) {
+        free(multiplicities);
+        return NURBS_ERROR_MEMORY;
+    }
+    patch->spans[d] = n - 1;
+    size_t k = 0, last = patch->size[d] + (size_t)patch->degree[d];
+    for (size_t i = 0; i < n; i++) {
+        while (k < last && knots[k] < patch->breaks[d][i])
+            k++;
+        if (knots[k] == patch->breaks[d][i] || multiplicities[i] >= patch->degree[d])
+            panels[count++] = patch->breaks[d][i];
+    }
+    patch->panels[d] = count - 1;
+    free(multiplicities);
+    return NURBS_OK;
 }
 
 /* Greville points. The first and the last go half way to their neighbour: off the waterline, where
  * the kernel is singular, and off stem, keel and collapsed edges, where the normal is not defined.
- * Those on a knot of multiplicity >= degree, where the surface may have a kink, move likewise. */
-static void collocation_abscissae(int degree, size_t n, const double *knots, double *abscissa)
+ * Those on a knot of multiplicity >= degree, or on a kink of the shape, move likewise. */
+static void collocation_abscissae(struct density_patch *patch, int d)
 {
+    size_t n = patch->size[d];
+    int degree = patch->degree[d];
+    const double *knots = patch->knots[d];
+    double *abscissa = patch->abscissa[d];
     double scale = knots[n] - knots[0], previous = knots[0], here = knots[0];
     nurbs_greville(degree, n, knots, abscissa);
     for (size_t i = 0; i < n; i++, previous = here) {
@@ -87,39 +210,59 @@ static void collocation_abscissae(int degree, size_t n, const double *knots, dou
         int multiplicity = 0;
         for (size_t k = i; k <= i + (size_t)degree + 1; k++)
             multiplicity += same(knots[k], here, scale);
-        if (multiplicity < degree)
-            continue;
-        double towards = same(abscissa[i + 1], here, scale) ? previous : abscissa[i + 1];
-        abscissa[i] = 0.5 * (here + towards);
+        if (multiplicity >= degree) {
+            double towards = same(abscissa[i + 1], here, scale) ? previous : abscissa[i + 1];
+            abscissa[i] = 0.5 * (here + towards);
+        } else if (is_kink(patch, d, here)) {
+            abscissa[i] = 0.75 * here + 0.25 * abscissa[i + 1];
+        }
     }
 }
 
-static igabem_status create_patch(const struct hull_patch *hull, size_t index, int degree,
-                                  const int refine[2], size_t offset, struct density_patch *patch)
+static nurbs_status shape_and_basis(const struct hull_patch *hull, const struct density_rule *rule,
+                                    struct density_patch *patch)
+{
+    nurbs_status status = elevated_surface(hull->surface, rule->degree, &patch->surface);
+    int own = rule->elements[0] > 0 || rule->elements[1] > 0;
+    for (int d = 0; d < 2 && status == NURBS_OK; d++) {
+        patch->degree[d] = nurbs_surface_degree(patch->surface, d);
+        if (rule->elements[d] > 0)
+            continue;
+        if (rule->refine[d] > 1)
+            status = refine_direction(&patch->surface, d, rule->refine[d]);
+        if (status == NURBS_OK)
+            status = hull_knots(patch, d);
+    }
+    for (int d = 0; d < 2 && status == NURBS_OK; d++)
+        if (rule->elements[d] > 0)
+            status = uniform_knots(patch, d, rule->elements[d]);
+    for (int d = 0; d < 2 && status == NURBS_OK; d++)
+        status = find_breaks(patch, d);
+    patch->hull.surface = patch->surface;
+    if (status == NURBS_OK && !own)
+        patch->weights = nurbs_surface_weights(patch->surface);
+    return status;
+}
+
+static igabem_status create_patch(const struct hull_patch *hull, size_t index,
+                                  const struct density_rule *rule, size_t offset,
+                                  struct density_patch *patch)
 {
     patch->hull = *hull;
     patch->hull.surface = NULL;
     patch->offset = offset;
-    nurbs_status status = refined_surface(hull->surface, degree, refine, &patch->surface);
-    patch->hull.surface = patch->surface;
+    nurbs_status status = shape_and_basis(hull, rule, patch);
     if (status != NURBS_OK)
         return from_nurbs(status, index);
     for (int d = 0; d < 2; d++) {
-        int p = nurbs_surface_degree(patch->surface, d);
-        size_t n = nurbs_surface_size(patch->surface, d);
-        const double *knots = nurbs_surface_knots(patch->surface, d);
-        if (p > ELEMENT_MAX_DEGREE)
+        if (patch->degree[d] > ELEMENT_MAX_DEGREE)
             return igabem_fail(IGABEM_ERROR_ARGUMENT,
-                               "patch %zu: degree %d of the density exceeds %d", index, p,
-                               (int)ELEMENT_MAX_DEGREE);
-        patch->degree[d] = p;
-        patch->size[d] = n;
-        patch->breaks[d] = malloc((n + 1) * sizeof(double));
-        patch->abscissa[d] = malloc(n * sizeof(double));
-        if (!patch->breaks[d] || !patch->abscissa[d])
+                               "patch %zu: degree %d of the density exceeds %d", index,
+                               patch->degree[d], (int)ELEMENT_MAX_DEGREE);
+        patch->abscissa[d] = malloc(patch->size[d] * sizeof(double));
+        if (!patch->abscissa[d])
             return igabem_fail(IGABEM_ERROR_MEMORY, "patch %zu: no memory for the density", index);
-        patch->spans[d] = nurbs_knots_distinct(p, n, knots, patch->breaks[d], NULL) - 1;
-        collocation_abscissae(p, n, knots, patch->abscissa[d]);
+        collocation_abscissae(patch, d);
     }
     return IGABEM_OK;
 }
@@ -157,7 +300,7 @@ static igabem_status collocation_points(struct density *density, size_t index)
     return IGABEM_OK;
 }
 
-igabem_status density_create(const igabem_hull *hull, int degree, const int refine[2],
+igabem_status density_create(const igabem_hull *hull, const struct density_rule *rule,
                              struct density **result)
 {
     *result = NULL;
@@ -174,7 +317,7 @@ igabem_status density_create(const igabem_hull *hull, int degree, const int refi
     igabem_status status = IGABEM_OK;
     for (size_t k = 0; k < hull->n && status == IGABEM_OK; k++) {
         struct density_patch *patch = &density->patch[k];
-        status = create_patch(&hull->patches[k], k, degree, refine, density->n, patch);
+        status = create_patch(&hull->patches[k], k, rule, density->n, patch);
         if (status == IGABEM_OK)
             density->n += patch->size[0] * patch->size[1];
     }
@@ -205,7 +348,9 @@ void density_free(struct density *density)
     for (size_t k = 0; density->patch && k < density->patches; k++) {
         nurbs_surface_free(density->patch[k].surface);
         for (int d = 0; d < 2; d++) {
+            free(density->patch[k].knots[d]);
             free(density->patch[k].breaks[d]);
+            free(density->patch[k].panel_breaks[d]);
             free(density->patch[k].abscissa[d]);
         }
     }
@@ -223,7 +368,7 @@ static lapack_int factor_direction(const struct density_patch *patch, int d, dou
                                    lapack_int *pivots)
 {
     size_t n = patch->size[d], p = (size_t)patch->degree[d], span = 0;
-    const double *knots = nurbs_surface_knots(patch->surface, d);
+    const double *knots = patch->knots[d];
     memset(matrix, 0, n * n * sizeof *matrix);
     for (size_t i = 0; i < n; i++) {
         double x = patch->abscissa[d][i];
@@ -234,6 +379,33 @@ static lapack_int factor_direction(const struct density_patch *patch, int d, dou
                           pivots);
 }
 
+/* Functions of the density at (u, v): fills basis[pu+1][pv+1], returns the index of the first one
+ * within the patch. */
+static size_t evaluate_basis(const struct density_patch *patch, const double uv[2], double *basis,
+                             double *divisor)
+{
+    double value[2][ELEMENT_SIDE];
+    size_t first[2], n = (size_t)patch->degree[1] + 1;
+    for (int d = 0; d < 2; d++) {
+        size_t span =
+            nurbs_basis_span(patch->degree[d], patch->size[d], patch->knots[d], uv[d], NULL);
+        nurbs_basis(patch->degree[d], patch->knots[d], span, uv[d], value[d]);
+        first[d] = span - (size_t)patch->degree[d];
+    }
+    size_t corner = first[0] * patch->size[1] + first[1],
+           count = (size_t)(patch->degree[0] + 1) * n;
+    double sum = 0.0;
+    for (size_t k = 0; k < count; k++) {
+        size_t at = corner + k / n * patch->size[1] + k % n;
+        basis[k] = value[0][k / n] * value[1][k % n] * (patch->weights ? patch->weights[at] : 1.0);
+        sum += basis[k];
+    }
+    *divisor = patch->weights ? sum : 1.0;
+    for (size_t k = 0; k < count; k++)
+        basis[k] /= *divisor;
+    return corner;
+}
+
 /* One patch, one field: the collocation matrix is diag(1/W) (Bu x Bv) diag(w) with the weights w of
  * the control points and W(u,v) of the collocation points. */
 static igabem_status interpolate_patch(const struct density *density,
@@ -241,7 +413,7 @@ static igabem_status interpolate_patch(const struct density *density,
                                        double *values)
 {
     size_t nu = patch->size[0], nv = patch->size[1], n = nu * nv;
-    const double *weights = nurbs_surface_weights(patch->surface);
+    const double *weights = patch->weights;
     double *work = malloc((nu * nu + nv * nv + 2 * n) * sizeof *work);
     lapack_int *pivots = malloc((nu + nv) * sizeof *pivots);
     igabem_status status = IGABEM_OK;
@@ -256,23 +428,9 @@ static igabem_status interpolate_patch(const struct density *density,
     }
     for (size_t k = 0; k < n; k++)
         scale[k] = 1.0;
-    if (weights) {
-        size_t span[2];
+    for (size_t k = 0; k < n && weights; k++) {
         double basis[ELEMENT_FUNCTIONS];
-        size_t q = (size_t)patch->degree[1];
-        for (size_t k = 0; k < n; k++) { /* R_ij = w_ij B_ij / W for any one function */
-            const double *uv = density->uv[patch->offset + k];
-            if (nurbs_surface_basis(patch->surface, 0, uv[0], uv[1], span, basis) != NURBS_OK) {
-                status = igabem_fail(IGABEM_ERROR_NUMERIC, "%s", nurbs_last_error());
-                goto done;
-            }
-            size_t first =
-                (span[0] - (size_t)patch->degree[0]) * nv + span[1] - (size_t)patch->degree[1];
-            double sum = 0.0;
-            for (size_t m = 0; m < (size_t)(patch->degree[0] + 1) * (q + 1); m++)
-                sum += basis[m] / weights[first + m / (q + 1) * nv + m % (q + 1)];
-            scale[k] = 1.0 / sum; /* sum R/w = sum B / W = 1 / W */
-        }
+        evaluate_basis(patch, density->uv[patch->offset + k], basis, &scale[k]);
     }
     for (size_t f = 0; f < fields; f++) {
         double *field = values + f * density->n + patch->offset;
@@ -311,13 +469,14 @@ igabem_status density_evaluate(const struct density *density, size_t index, size
     const struct density_patch *patch = &density->patch[index];
     size_t nv = patch->size[1], q = (size_t)patch->degree[1] + 1;
     for (size_t k = 0; k < m; k++) {
-        size_t span[2];
-        double basis[ELEMENT_FUNCTIONS];
-        if (nurbs_surface_basis(patch->surface, 0, uv[2 * k], uv[2 * k + 1], span, basis) !=
-            NURBS_OK)
-            return igabem_fail(IGABEM_ERROR_ARGUMENT, "point %zu: %s", k, nurbs_last_error());
-        size_t first = patch->offset + (span[0] - (size_t)patch->degree[0]) * nv + span[1] -
-                       (size_t)patch->degree[1];
+        double basis[ELEMENT_FUNCTIONS], divisor;
+        const double *at = uv + 2 * k;
+        for (int d = 0; d < 2; d++)
+            if (!(at[d] >= patch->hull.domain[d][0] && at[d] <= patch->hull.domain[d][1]))
+                return igabem_fail(IGABEM_ERROR_ARGUMENT,
+                                   "point %zu: parameter %g is outside %g to %g", k, at[d],
+                                   patch->hull.domain[d][0], patch->hull.domain[d][1]);
+        size_t first = patch->offset + evaluate_basis(patch, at, basis, &divisor);
         for (size_t f = 0; f < fields; f++) {
             const double *c = coefficients + f * density->n + first;
             double sum = 0.0;

@@ -1,6 +1,9 @@
-/* The space of the source density: every patch of the hull elevated to the least degree asked for
- * and refined, so that shape and density share one (rational) basis. Unknowns are numbered patch by
- * patch, u slow and v fast; one collocation point per unknown. */
+/* The space of the source density on the patches of a hull, unknowns numbered patch by patch, u
+ * slow and v fast, one collocation point per unknown. By default the basis is the hull's own: its
+ * NURBS, elevated to the least degree asked for and refined. Alternatively it is a polynomial
+ * spline of the same degree on uniform knots, over the parameters of the hull but free of its
+ * knots: knots that follow the shape from one design to the next make the error of the resistance
+ * follow too. */
 #ifndef DENSITY_H
 #define DENSITY_H
 
@@ -9,13 +12,17 @@
 #include <igabem/solve.h>
 
 struct density_patch {
-    nurbs_surface *surface; /* owned; same shape and parameters as the hull's patch */
+    nurbs_surface *surface; /* owned; the hull's patch with all breaks below among its knots */
     struct hull_patch hull; /* sign, domain and edges; its surface is the one above */
-    int degree[2];
-    size_t size[2];
-    size_t offset;       /* first unknown */
-    double *breaks[2];   /* distinct knots, spans[d] + 1 each */
-    size_t spans[2];     /* knot spans of positive length */
+    int degree[2];          /* of shape and density */
+    size_t size[2];         /* functions of the density */
+    double *knots[2];       /* of the density, size[d] + degree[d] + 1 each */
+    const double *weights;  /* of the density's functions, borrowed; NULL: polynomial */
+    size_t offset;          /* first unknown */
+    double *breaks[2];      /* ends of the elements: knots of shape or density, spans[d] + 1 each */
+    size_t spans[2];
+    double *panel_breaks[2]; /* ends of the panels: knots of the density, and lines of C0 shape */
+    size_t panels[2];
     double *abscissa[2]; /* collocation parameters, size[d] each */
 };
 
@@ -31,8 +38,14 @@ struct density {
     double (*jet)[6]; /* [n] Su, Sv there */
 };
 
-/* Creates the space; copies what it needs of the hull. refine[2] >= 1 parts per span. */
-igabem_status density_create(const igabem_hull *hull, int degree, const int refine[2],
+struct density_rule {
+    int degree;      /* least */
+    int refine[2];   /* parts of each span of the hull's knots, >= 1 */
+    int elements[2]; /* uniform spans, 0: the hull's own, refined; both 0: the hull's own basis */
+};
+
+/* Creates the space; copies what it needs of the hull. */
+igabem_status density_create(const igabem_hull *hull, const struct density_rule *rule,
                              struct density **density);
 void density_free(struct density *density);
 

@@ -50,7 +50,7 @@ void element_jet(const struct element *element, double s, double t, struct jet *
         }
     }
     double inverse = 1.0 / h[3];
-    jet->weight = h[3];
+    jet->weight = element->rational ? h[3] : 1.0;
     for (int c = 0; c < 3; c++) {
         jet->s[c] = h[c] * inverse;
         jet->ds[c] = (hs[c] - jet->s[c] * hs[3]) * inverse;
@@ -165,20 +165,22 @@ static void extraction_matrix(int degree, const double *knots, size_t span, doub
             extraction[a * n + k] = values[k * n + a];
 }
 
+/* Bezier points of the shape over one span of its own knots; corner: its first control point. */
 static void bezier_net(const struct element *element, const nurbs_surface *surface, size_t corner,
-                       double *net)
+                       const double *shape[2], double *net)
 {
     size_t m = (size_t)element->degree[0] + 1, n = (size_t)element->degree[1] + 1;
-    const double *points = nurbs_surface_points(surface) + 3 * corner;
+    size_t stride = nurbs_surface_size(surface, 1);
+    const double *points = nurbs_surface_points(surface), *weights = nurbs_surface_weights(surface);
     memset(net, 0, 4 * m * n * sizeof *net);
     for (size_t i = 0; i < m; i++)
         for (size_t j = 0; j < n; j++) {
-            const double *point = points + 3 * (i * element->stride + j);
-            double w = element->weight ? element->weight[i * element->stride + j] : 1.0;
+            size_t at = corner + i * stride + j;
+            const double *point = points + 3 * at;
+            double w = weights ? weights[at] : 1.0;
             for (size_t a = 0; a < m; a++)
                 for (size_t b = 0; b < n; b++) {
-                    double e =
-                        w * element->extraction[0][i * m + a] * element->extraction[1][j * n + b];
+                    double e = w * shape[0][i * m + a] * shape[1][j * n + b];
                     double *out = net + 4 * (a * n + b);
                     for (size_t c = 0; c < 3; c++)
                         out[c] += e * point[c];
@@ -201,56 +203,101 @@ static void bounding_box(struct element *element)
     }
 }
 
-static size_t span_of_break(const struct density_patch *patch, int direction, size_t k)
+/* Extraction of density and shape over every span of one direction, and their first functions. */
+struct extraction {
+    const double *density, *shape;
+    size_t density_first, shape_first;
+};
+
+static void extract_direction(const struct density_patch *patch, int d, double **storage,
+                              struct extraction *extraction)
 {
-    const double *breaks = patch->breaks[direction];
-    return nurbs_basis_span(patch->degree[direction], patch->size[direction],
-                            nurbs_surface_knots(patch->surface, direction),
-                            0.5 * (breaks[k] + breaks[k + 1]), NULL);
+    size_t p = (size_t)patch->degree[d], block = (p + 1) * (p + 1);
+    const double *shape_knots = nurbs_surface_knots(patch->surface, d);
+    for (size_t k = 0; k < patch->spans[d]; k++) {
+        double lower = patch->breaks[d][k], upper = patch->breaks[d][k + 1];
+        double middle = 0.5 * (lower + upper);
+        size_t density = nurbs_basis_span((int)p, patch->size[d], patch->knots[d], middle, NULL);
+        size_t shape = nurbs_basis_span((int)p, nurbs_surface_size(patch->surface, d), shape_knots,
+                                        middle, NULL);
+        extraction_matrix((int)p, patch->knots[d], density, lower, upper, *storage);
+        extraction_matrix((int)p, shape_knots, shape, lower, upper, *storage + block);
+        extraction[k] = (struct extraction){*storage, *storage + block, density - p, shape - p};
+        *storage += 2 * block;
+    }
 }
 
-static void fill_patch(const struct density *density, size_t index, struct element *element,
-                       double **storage)
+static void fill_element(const struct density_patch *patch, size_t index,
+                         const struct extraction *u, const struct extraction *v, size_t k, size_t l,
+                         double **storage, struct element *element)
+{
+    size_t corner = u->density_first * patch->size[1] + v->density_first;
+    size_t shape = u->shape_first * nurbs_surface_size(patch->surface, 1) + v->shape_first;
+    const double *extraction[2] = {u->shape, v->shape};
+    *element = (struct element){
+        .patch = index,
+        .degree = {patch->degree[0], patch->degree[1]},
+        .lower = {patch->breaks[0][k], patch->breaks[1][l]},
+        .upper = {patch->breaks[0][k + 1], patch->breaks[1][l + 1]},
+        .extraction = {u->density, v->density},
+        .weight = patch->weights ? patch->weights + corner : NULL,
+        .net = *storage,
+        .first = patch->offset + corner,
+        .stride = patch->size[1],
+        .rational = patch->weights != NULL,
+        .sign = patch->hull.sign,
+    };
+    bezier_net(element, patch->surface, shape, extraction, *storage);
+    bounding_box(element);
+    *storage += 4 * (size_t)(patch->degree[0] + 1) * (size_t)(patch->degree[1] + 1);
+}
+
+/* Range of the elements of one direction that make up a panel. */
+static void panel_range(const struct density_patch *patch, int d, size_t panel, size_t range[2])
+{
+    const double *breaks = patch->breaks[d], *ends = patch->panel_breaks[d];
+    range[0] = 0;
+    while (breaks[range[0]] < ends[panel])
+        range[0]++;
+    range[1] = range[0];
+    while (breaks[range[1]] < ends[panel + 1])
+        range[1]++;
+}
+
+static igabem_status fill_patch(const struct density *density, size_t index, struct mesh *mesh,
+                                double **storage)
 {
     const struct density_patch *patch = &density->patch[index];
-    const double *extraction[2];
-    size_t block[2];
-    for (int d = 0; d < 2; d++) {
-        block[d] = (size_t)(patch->degree[d] + 1) * (size_t)(patch->degree[d] + 1);
-        extraction[d] = *storage;
-        for (size_t k = 0; k < patch->spans[d]; k++, *storage += block[d])
-            extraction_matrix(patch->degree[d], nurbs_surface_knots(patch->surface, d),
-                              span_of_break(patch, d, k), patch->breaks[d][k],
-                              patch->breaks[d][k + 1], *storage);
-    }
-    const double *weights = nurbs_surface_weights(patch->surface);
-    for (size_t k = 0; k < patch->spans[0]; k++)
-        for (size_t l = 0; l < patch->spans[1]; l++, element++) {
-            size_t i = span_of_break(patch, 0, k) - (size_t)patch->degree[0];
-            size_t j = span_of_break(patch, 1, l) - (size_t)patch->degree[1];
-            size_t corner = i * patch->size[1] + j;
-            *element = (struct element){
-                .patch = index,
-                .degree = {patch->degree[0], patch->degree[1]},
-                .lower = {patch->breaks[0][k], patch->breaks[1][l]},
-                .upper = {patch->breaks[0][k + 1], patch->breaks[1][l + 1]},
-                .extraction = {extraction[0] + k * block[0], extraction[1] + l * block[1]},
-                .weight = weights ? weights + corner : NULL,
-                .net = *storage,
-                .first = patch->offset + corner,
-                .stride = patch->size[1],
-                .sign = patch->hull.sign,
-            };
-            bezier_net(element, patch->surface, corner, *storage);
-            bounding_box(element);
-            *storage += 4 * (size_t)(patch->degree[0] + 1) * (size_t)(patch->degree[1] + 1);
+    struct extraction *u = malloc((patch->spans[0] + patch->spans[1]) * sizeof *u);
+    if (!u)
+        return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for the elements");
+    struct extraction *v = u + patch->spans[0];
+    extract_direction(patch, 0, storage, u);
+    extract_direction(patch, 1, storage, v);
+    for (size_t a = 0; a < patch->panels[0]; a++)
+        for (size_t b = 0; b < patch->panels[1]; b++) {
+            size_t range_u[2], range_v[2];
+            panel_range(patch, 0, a, range_u);
+            panel_range(patch, 1, b, range_v);
+            struct panel *panel = &mesh->panel[mesh->panels++];
+            *panel = (struct panel){
+                .first = mesh->n,
+                .lower = {patch->panel_breaks[0][a], patch->panel_breaks[1][b]},
+                .upper = {patch->panel_breaks[0][a + 1], patch->panel_breaks[1][b + 1]}};
+            for (size_t k = range_u[0]; k < range_u[1]; k++)
+                for (size_t l = range_v[0]; l < range_v[1]; l++)
+                    fill_element(patch, index, &u[k], &v[l], k, l, storage,
+                                 &mesh->element[mesh->n++]);
+            panel->count = mesh->n - panel->first;
         }
+    free(u);
+    return IGABEM_OK;
 }
 
 igabem_status mesh_create(const struct density *density, struct mesh **result)
 {
     *result = NULL;
-    size_t elements = 0, doubles = 0;
+    size_t elements = 0, panels = 0, doubles = 0;
     struct mesh *mesh = calloc(1, sizeof *mesh);
     if (mesh)
         mesh->patch_base = calloc(density->patches + 1, sizeof *mesh->patch_base);
@@ -263,25 +310,29 @@ igabem_status mesh_create(const struct density *density, struct mesh **result)
         size_t side[2], spans = patch->spans[0] * patch->spans[1];
         for (int d = 0; d < 2; d++) {
             side[d] = (size_t)patch->degree[d] + 1;
-            doubles += patch->spans[d] * side[d] * side[d];
+            doubles += 2 * patch->spans[d] * side[d] * side[d];
             if ((size_t)patch->degree[d] > mesh->degree[d])
                 mesh->degree[d] = (size_t)patch->degree[d];
         }
         mesh->patch_base[k] = elements;
         elements += spans;
+        panels += patch->panels[0] * patch->panels[1];
         doubles += 4 * spans * side[0] * side[1];
     }
     mesh->patch_base[density->patches] = elements;
-    mesh->n = elements;
     mesh->element = calloc(elements, sizeof *mesh->element);
+    mesh->panel = calloc(panels, sizeof *mesh->panel);
     mesh->storage = malloc(doubles * sizeof *mesh->storage);
-    if (!mesh->element || !mesh->storage) {
-        mesh_free(mesh);
-        return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu elements", elements);
-    }
+    igabem_status status = IGABEM_OK;
+    if (!mesh->element || !mesh->panel || !mesh->storage)
+        status = igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu elements", elements);
     double *storage = mesh->storage;
-    for (size_t k = 0; k < density->patches; k++)
-        fill_patch(density, k, mesh->element + mesh->patch_base[k], &storage);
+    for (size_t k = 0; k < density->patches && status == IGABEM_OK; k++)
+        status = fill_patch(density, k, mesh, &storage);
+    if (status != IGABEM_OK) {
+        mesh_free(mesh);
+        return status;
+    }
     *result = mesh;
     return IGABEM_OK;
 }
@@ -291,6 +342,7 @@ void mesh_free(struct mesh *mesh)
     if (!mesh)
         return;
     free(mesh->element);
+    free(mesh->panel);
     free(mesh->storage);
     free(mesh->patch_base);
     free(mesh);

@@ -22,16 +22,24 @@ struct element {
     const double *net;           /* [pu+1][pv+1][4]: wx, wy, wz, w */
     size_t first;                /* unknown that belongs to the function (0, 0) of the span */
     size_t stride;               /* from function (i, j) to (i+1, j) */
+    int rational;                /* of the density: weight != NULL */
     double sign;                 /* outward normal = sign * S_s x S_t */
     double box[2][3];            /* bounds of the Bezier points, hence of the piece */
 };
 
+/* Elements that see the same functions of the density: what a distant point sees as one. */
+struct panel {
+    size_t first, count; /* elements */
+    double lower[2], upper[2];
+};
+
 struct mesh {
-    size_t n;
-    struct element *element;
+    size_t n, panels;
+    struct element *element; /* panel by panel, patch by patch */
+    struct panel *panel;
     double *storage;
     size_t degree[2];   /* largest of all elements */
-    size_t *patch_base; /* first element of each patch; spans of u slow, of v fast */
+    size_t *patch_base; /* first element of each patch, and their number */
 };
 
 igabem_status mesh_create(const struct density *density, struct mesh **mesh);
@@ -42,7 +50,7 @@ void bernstein(int p, double s, double *values, double *derivatives);
 
 struct jet {
     double s[3], ds[3], dt[3]; /* point and derivatives with respect to s and t */
-    double weight;             /* homogeneous weight there, 1 when polynomial */
+    double weight;             /* homogeneous weight of the density there, 1 when polynomial */
 };
 
 void element_jet(const struct element *element, double s, double t, struct jet *jet);

@@ -2,6 +2,7 @@
 
 #include "error.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -21,10 +22,10 @@ int regular_class(const struct element *element, int direction, int points)
     return k;
 }
 
-const struct regular_rule *regular_rule_of(const struct influence *influence, size_t element,
+const struct regular_rule *regular_rule_of(const struct influence *influence, size_t panel,
                                            const int class[2])
 {
-    size_t k = element * REGULAR_CLASSES + (size_t) class[0];
+    size_t k = panel * REGULAR_CLASSES + (size_t) class[0];
     return &influence->regular[k * REGULAR_CLASSES + (size_t) class[1]];
 }
 
@@ -42,25 +43,93 @@ static size_t functions(const struct element *element)
     return (size_t)(element->degree[0] + 1) * (size_t)(element->degree[1] + 1);
 }
 
+/* The element of a panel at parameters relative to the panel, and its local parameters. */
+static const struct element *locate(const struct mesh *mesh, const struct panel *panel,
+                                    const double at[2], double local[2])
+{
+    const struct element *element = NULL;
+    for (size_t e = 0; e < panel->count; e++) {
+        element = &mesh->element[panel->first + e];
+        int inside = 1;
+        for (int d = 0; d < 2; d++) {
+            double x = panel->lower[d] + at[d] * (panel->upper[d] - panel->lower[d]);
+            local[d] = (x - element->lower[d]) / (element->upper[d] - element->lower[d]);
+            inside &= local[d] >= -1e-12 && local[d] <= 1.0 + 1e-12;
+        }
+        if (inside)
+            break;
+    }
+    return element;
+}
+
+static void panel_point(const struct mesh *mesh, const struct panel *panel, double a, double b,
+                        double point[3])
+{
+    const double at[2] = {a, b};
+    double local[2];
+    struct jet jet;
+    const struct element *element = locate(mesh, panel, at, local);
+    element_jet(element, local[0], local[1], &jet);
+    memcpy(point, jet.s, sizeof jet.s);
+}
+
+static void panel_extent(struct influence *influence, size_t p)
+{
+    const struct mesh *mesh = influence->mesh;
+    const struct panel *panel = &mesh->panel[p];
+    double *centre = influence->centre[p];
+    panel_point(mesh, panel, 0.5, 0.5, centre);
+    for (int d = 0; d < 2; d++) {
+        influence->half[p][d] = 0.0;
+        for (int end = 0; end < 2; end++) {
+            double point[3], square = 0.0;
+            panel_point(mesh, panel, d == 0 ? end : 0.5, d == 0 ? 0.5 : end, point);
+            for (int c = 0; c < 3; c++)
+                square += (point[c] - centre[c]) * (point[c] - centre[c]);
+            influence->half[p][d] = fmax(influence->half[p][d], sqrt(square));
+        }
+    }
+    influence->box[p][0] = INFINITY;
+    influence->box[p][1] = -INFINITY;
+    for (size_t e = panel->first; e < panel->first + panel->count; e++) {
+        influence->box[p][0] = fmin(influence->box[p][0], mesh->element[e].box[0][0]);
+        influence->box[p][1] = fmax(influence->box[p][1], mesh->element[e].box[1][0]);
+    }
+}
+
+static void panel_nodes(const struct influence *influence, const struct panel *panel,
+                        const int points[2], struct nodes *nodes)
+{
+    const struct gauss *gauss = &influence->gauss;
+    for (int i = 0; i < points[0]; i++)
+        for (int j = 0; j < points[1]; j++) {
+            const double at[2] = {gauss->node[points[0]][i], gauss->node[points[1]][j]};
+            double local[2];
+            double weight = gauss->weight[points[0]][i] * gauss->weight[points[1]][j];
+            const struct element *element = locate(influence->mesh, panel, at, local);
+            for (int d = 0; d < 2; d++)
+                weight *=
+                    (panel->upper[d] - panel->lower[d]) / (element->upper[d] - element->lower[d]);
+            point_node(element, local[0], local[1], weight, nodes);
+        }
+}
+
 static igabem_status fill_regular(struct influence *influence)
 {
     const struct mesh *mesh = influence->mesh;
-    const double whole[4] = {0.0, 1.0, 0.0, 1.0};
     struct nodes nodes;
     nodes_init(&nodes, mesh);
     double *at = influence->storage;
-    for (size_t e = 0; e < mesh->n; e++) {
-        const struct element *element = &mesh->element[e];
-        struct domain domain;
-        domain_whole(element, &domain);
-        cell_extent(&domain, whole, influence->centre[e], influence->half[e]);
+    for (size_t p = 0; p < mesh->panels; p++) {
+        const struct element *element = &mesh->element[mesh->panel[p].first];
+        panel_extent(influence, p);
         for (int k = 0; k < REGULAR_CLASSES * REGULAR_CLASSES; k++) {
             struct regular_rule *rule =
-                &influence->regular[e * REGULAR_CLASSES * REGULAR_CLASSES + (size_t)k];
+                &influence->regular[p * REGULAR_CLASSES * REGULAR_CLASSES + (size_t)k];
             const int points[2] = {least_points(element, 0) + class_points[k / REGULAR_CLASSES],
                                    least_points(element, 1) + class_points[k % REGULAR_CLASSES]};
             nodes_clear(&nodes);
-            cell_nodes(&domain, whole, points, &influence->gauss, &nodes);
+            panel_nodes(influence, &mesh->panel[p], points, &nodes);
             if (nodes.failed) {
                 nodes_free(&nodes);
                 return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for quadrature nodes");
@@ -70,7 +139,7 @@ static igabem_status fill_regular(struct influence *influence)
             memcpy(rule->x, nodes.x, n * sizeof *at);
             memcpy(rule->y, nodes.y, n * sizeof *at);
             memcpy(rule->z, nodes.z, n * sizeof *at);
-            nodes_fold(&nodes, element, rule->f);
+            nodes_fold(&nodes, rule->f);
             at += n * (3 + functions(element));
         }
     }
@@ -91,17 +160,21 @@ igabem_status influence_create(const struct density *density, const struct mesh 
     influence->wave_tolerance = tolerance;
     influence->threads = threads;
     size_t doubles = 0;
-    for (size_t e = 0; e < mesh->n; e++)
-        doubles += class_nodes(&mesh->element[e]) * (3 + functions(&mesh->element[e]));
-    influence->centre = malloc(mesh->n * sizeof *influence->centre);
-    influence->half = malloc(mesh->n * sizeof *influence->half);
+    for (size_t p = 0; p < mesh->panels; p++) {
+        const struct element *element = &mesh->element[mesh->panel[p].first];
+        doubles += class_nodes(element) * (3 + functions(element));
+    }
+    influence->centre = malloc(mesh->panels * sizeof *influence->centre);
+    influence->half = malloc(mesh->panels * sizeof *influence->half);
+    influence->box = malloc(mesh->panels * sizeof *influence->box);
     influence->regular =
-        malloc(mesh->n * REGULAR_CLASSES * REGULAR_CLASSES * sizeof *influence->regular);
+        malloc(mesh->panels * REGULAR_CLASSES * REGULAR_CLASSES * sizeof *influence->regular);
     influence->storage = malloc(doubles * sizeof *influence->storage);
     igabem_status status = gauss_fill(&influence->gauss);
-    if (!influence->centre || !influence->half || !influence->regular || !influence->storage)
-        status = igabem_fail(IGABEM_ERROR_MEMORY, "no memory for quadrature nodes of %zu elements",
-                             mesh->n);
+    if (!influence->centre || !influence->half || !influence->box || !influence->regular ||
+        !influence->storage)
+        status = igabem_fail(IGABEM_ERROR_MEMORY, "no memory for quadrature nodes of %zu panels",
+                             mesh->panels);
     if (status == IGABEM_OK)
         status = fill_regular(influence);
     if (status != IGABEM_OK) {
@@ -118,6 +191,7 @@ void influence_free(struct influence *influence)
         return;
     free(influence->centre);
     free(influence->half);
+    free(influence->box);
     free(influence->regular);
     free(influence->storage);
     free(influence);

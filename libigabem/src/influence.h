@@ -10,7 +10,7 @@
 
 enum { REGULAR_CLASSES = 4, REGULAR_MOST = 6 + ELEMENT_SIDE / 2 };
 
-/* A tensor Gauss rule on one element with the basis folded in: f[node][function]. */
+/* A tensor Gauss rule on one panel with the basis folded in: f[node][function]. */
 struct regular_rule {
     size_t n;
     double *x, *y, *z, *f;
@@ -20,15 +20,15 @@ struct influence {
     const struct density *density;
     const struct mesh *mesh;
     struct gauss gauss;
-    double tolerance;                /* absolute, of one element's influence */
-    double wave_tolerance;           /* relative, of the wave part */
-    double (*centre)[3], (*half)[2]; /* of the elements */
-    struct regular_rule *regular;    /* [element][class along u][class along v] */
+    double tolerance;                           /* absolute, of one panel's influence */
+    double wave_tolerance;                      /* relative, of the wave part */
+    double (*centre)[3], (*half)[2], (*box)[2]; /* of the panels; box: bounds of x */
+    struct regular_rule *regular;               /* [panel][class along u][class along v] */
     double *storage;
     int threads;
 };
 
-/* tolerance: of the resistance; errors of a few dozen elements near a point add up, so each gets a
+/* tolerance: of the resistance; errors of a few dozen panels near a point add up, so each gets a
  * tenth of it. */
 igabem_status influence_create(const struct density *density, const struct mesh *mesh,
                                double tolerance, int threads, struct influence **influence);
@@ -37,7 +37,7 @@ void influence_free(struct influence *influence);
 /* Class (index of the rule) for a number of points, REGULAR_CLASSES if none is fine enough. */
 int regular_class(const struct element *element, int direction, int points);
 
-const struct regular_rule *regular_rule_of(const struct influence *influence, size_t element,
+const struct regular_rule *regular_rule_of(const struct influence *influence, size_t panel,
                                            const int class[2]);
 
 /* Adds sum_node k[c * stride + node] f[node][.] to rows[c * row_stride + unknown], c < fields. */

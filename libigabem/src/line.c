@@ -183,13 +183,13 @@ static int append_edge(struct line *line, const struct density *density, const s
 {
     const struct density_patch *patch = &density->patch[k];
     int fixed = edge < HULL_V0 ? 0 : 1, end = edge == HULL_U1 || edge == HULL_V1;
-    size_t at = end ? patch->spans[fixed] - 1 : 0;
-    for (size_t i = 0; i < patch->spans[1 - fixed]; i++) {
-        size_t e = fixed == 0 ? at * patch->spans[1] + i : i * patch->spans[1] + at;
-        struct line_segment segment = {.element = &mesh->element[mesh->patch_base[k] + e],
-                                       .fixed = fixed,
-                                       .end = end,
-                                       .range = {0.0, 1.0}};
+    double bound = patch->breaks[fixed][end ? patch->spans[fixed] : 0];
+    for (size_t e = mesh->patch_base[k]; e < mesh->patch_base[k + 1]; e++) {
+        const struct element *element = &mesh->element[e];
+        if ((end ? element->upper : element->lower)[fixed] != bound)
+            continue;
+        struct line_segment segment = {
+            .element = element, .fixed = fixed, .end = end, .range = {0.0, 1.0}};
         bound_segment(&segment);
         double tolerance = 1e-7 * (segment.box[1] - segment.box[0]);
         if (!append_smooth(line, &segment, tolerance, 0, gauss))

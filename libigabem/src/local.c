@@ -10,16 +10,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Elements far enough from both images of the point share their regular rules. */
-struct far_element {
-    size_t element, first; /* first node of the batch */
+/* Panels far enough from both images of the point use their regular rules. */
+struct far_panel {
+    size_t panel, first; /* first node of the batch */
     const struct regular_rule *rule;
 };
 
 struct local_work {
     struct nodes nodes[2]; /* per image */
-    struct far_element *far;
-    size_t far_elements, far_nodes;
+    struct far_panel *far;
+    size_t far_panels, far_nodes;
     double *batch; /* X, Y, Z and the three derivatives, `capacity` each */
     size_t capacity;
 };
@@ -36,7 +36,31 @@ static int reserve(struct local_work *work, size_t n)
     return work->batch != NULL;
 }
 
-/* Nodes of the elements: regular where possible, else divided towards the image that is near, and
+/* Rule for a panel that all images see from far enough, NULL if there is none. */
+static const struct regular_rule *far_rule(const struct influence *influence, size_t p,
+                                           const struct near_rule *rule, const double image[2][3],
+                                           int images)
+{
+    const struct element *element = &influence->mesh->element[influence->mesh->panel[p].first];
+    const double *centre = influence->centre[p], *half = influence->half[p];
+    int class[2] = {0, 0};
+    for (int i = 0; i < images; i++) {
+        double dx = centre[0] - image[i][0], dy = centre[1] - image[i][1],
+               dz = centre[2] - image[i][2], distance = sqrt(dx * dx + dy * dy + dz * dz);
+        double scale = near_scale(rule, 4.0 * half[0] * half[1], distance);
+        for (int d = 0; d < 2; d++) {
+            int points =
+                regular_points(distance - half[1 - d], half[d], scale, influence->tolerance);
+            int c = regular_class(element, d, points);
+            class[d] = c > class[d] ? c : class[d];
+        }
+    }
+    if (class[0] == REGULAR_CLASSES || class[1] == REGULAR_CLASSES)
+        return NULL;
+    return regular_rule_of(influence, p, class);
+}
+
+/* Nodes of all panels: regular where possible, else divided towards the image that is near, and
  * always divided at x = x_P, where N has a kink. */
 static void collect(const struct influence *influence, double k0, const double image[2][3],
                     int images, struct local_work *work)
@@ -45,42 +69,32 @@ static void collect(const struct influence *influence, double k0, const double i
     struct near_rule rule = {
         .k0 = k0, .tolerance = influence->tolerance, .gauss = &influence->gauss};
     double x = image[0][0];
-    work->far_elements = work->far_nodes = 0;
+    work->far_panels = work->far_nodes = 0;
     for (int i = 0; i < images; i++)
         nodes_clear(&work->nodes[i]);
-    for (size_t e = 0; e < mesh->n; e++) {
-        const struct element *element = &mesh->element[e];
-        const double *centre = influence->centre[e], *half = influence->half[e];
-        double slack = 1e-9 * (half[0] + half[1]);
-        int cut = element->box[0][0] < x - slack && element->box[1][0] > x + slack;
-        int class[2] = {0, 0};
-        for (int i = 0; i < images && !cut; i++) {
-            double dx = centre[0] - x, dy = centre[1] - image[i][1], dz = centre[2] - image[i][2];
-            double distance = sqrt(dx * dx + dy * dy + dz * dz);
-            double scale = near_scale(&rule, 4.0 * half[0] * half[1], distance);
-            for (int d = 0; d < 2; d++) {
-                int points =
-                    regular_points(distance - half[1 - d], half[d], scale, influence->tolerance);
-                int c = regular_class(element, d, points);
-                class[d] = c > class[d] ? c : class[d];
-            }
-        }
-        if (!cut && class[0] < REGULAR_CLASSES && class[1] < REGULAR_CLASSES) {
-            const struct regular_rule *regular = regular_rule_of(influence, e, class);
-            work->far[work->far_elements++] = (struct far_element){e, work->far_nodes, regular};
-            work->far_nodes += regular->n;
+    for (size_t p = 0; p < mesh->panels; p++) {
+        const struct panel *panel = &mesh->panel[p];
+        double slack = 1e-9 * (influence->half[p][0] + influence->half[p][1]);
+        int cut = influence->box[p][0] < x - slack && influence->box[p][1] > x + slack;
+        const struct regular_rule *far = cut ? NULL : far_rule(influence, p, &rule, image, images);
+        if (far) {
+            work->far[work->far_panels++] = (struct far_panel){p, work->far_nodes, far};
+            work->far_nodes += far->n;
             continue;
         }
-        struct domain pieces[DOMAIN_PIECES];
-        size_t n = 1;
-        if (cut)
-            n = domain_cut(element, x, pieces);
-        else
-            domain_whole(element, pieces);
-        for (int i = 0; i < images; i++) {
-            memcpy(rule.point, image[i], sizeof rule.point);
-            for (size_t k = 0; k < n; k++)
-                near_nodes(&rule, &pieces[k], &work->nodes[i]);
+        for (size_t e = panel->first; e < panel->first + panel->count; e++) {
+            const struct element *element = &mesh->element[e];
+            struct domain pieces[DOMAIN_PIECES];
+            size_t n = 1;
+            if (element->box[0][0] < x - slack && element->box[1][0] > x + slack)
+                n = domain_cut(element, x, pieces);
+            else
+                domain_whole(element, pieces);
+            for (int i = 0; i < images; i++) {
+                memcpy(rule.point, image[i], sizeof rule.point);
+                for (size_t k = 0; k < n; k++)
+                    near_nodes(&rule, &pieces[k], &work->nodes[i]);
+            }
         }
     }
 }
@@ -111,7 +125,7 @@ static igabem_status evaluate(double k0, const double image[2][3], int images,
     double *X = work->batch, *Y = X + n, *Z = Y + n, *v = Z + n;
     size_t at = 0;
     for (int i = 0; i < images; i++)
-        for (size_t e = 0; e < work->far_elements; e++) {
+        for (size_t e = 0; e < work->far_panels; e++) {
             const struct regular_rule *rule = work->far[e].rule;
             scale_into(k0, image[i], rule->n, rule->x, rule->y, rule->z, X + at, Y + at, Z + at);
             at += rule->n;
@@ -136,10 +150,10 @@ static void scatter(const struct influence *influence, double k0, int images,
     for (size_t c = 0; c < 3 && images == 2; c++)
         for (size_t i = 0; i < far; i++)
             v[c * n + i] += c == 1 ? -v[c * n + far + i] : v[c * n + far + i];
-    for (size_t e = 0; e < work->far_elements; e++) {
-        const struct far_element *entry = &work->far[e];
-        regular_scatter(&influence->mesh->element[entry->element], entry->rule, 3, v + entry->first,
-                        n, rows, stride);
+    for (size_t e = 0; e < work->far_panels; e++) {
+        const struct far_panel *entry = &work->far[e];
+        regular_scatter(&influence->mesh->element[influence->mesh->panel[entry->panel].first],
+                        entry->rule, 3, v + entry->first, n, rows, stride);
     }
     size_t at = far * (size_t)images;
     for (int i = 0; i < images; at += work->nodes[i].n, i++) {
@@ -158,7 +172,7 @@ static igabem_status line_rows(const struct influence *influence, const struct l
 {
     struct near_rule rule = {
         .k0 = k0, .tolerance = influence->tolerance, .gauss = &influence->gauss};
-    work->far_elements = work->far_nodes = 0;
+    work->far_panels = work->far_nodes = 0;
     for (int i = 0; i < images; i++) {
         nodes_clear(&work->nodes[i]);
         memcpy(rule.point, image[i], sizeof rule.point);
@@ -204,7 +218,7 @@ static igabem_status all_rows(const struct influence *influence, const struct li
         struct local_work work = {0};
         for (int i = 0; i < 2; i++)
             nodes_init(&work.nodes[i], influence->mesh);
-        work.far = malloc(influence->mesh->n * sizeof *work.far);
+        work.far = malloc(influence->mesh->panels * sizeof *work.far);
         igabem_status status =
             work.far ? IGABEM_OK : igabem_fail(IGABEM_ERROR_MEMORY, "no memory for a matrix row");
 #pragma omp for schedule(dynamic, 4)

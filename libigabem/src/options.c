@@ -84,6 +84,10 @@ static igabem_status check(const igabem_options *options)
     if (status == IGABEM_OK)
         status = check_range("refine_v", options->refine_v, 0, 1000);
     if (status == IGABEM_OK)
+        status = check_range("elements_u", options->elements_u, 0, 100000);
+    if (status == IGABEM_OK)
+        status = check_range("elements_v", options->elements_v, 0, 100000);
+    if (status == IGABEM_OK)
         status = check_range("degree", options->degree, 1, 9);
     if (status == IGABEM_OK)
         status = check_range("tolerance", options->tolerance, 1e-12, 1e-2);

@@ -92,12 +92,12 @@ struct far_view {
     unsigned images; /* bit i: reflection i is far enough */
 };
 
-/* Which images an element is far enough from, and the finest rule that any of them needs. */
-static struct far_view look(const struct influence *influence, size_t e, const double image[4][3],
+/* Which images a panel is far enough from, and the finest rule that any of them needs. */
+static struct far_view look(const struct influence *influence, size_t p, const double image[4][3],
                             int images)
 {
-    const struct element *element = &influence->mesh->element[e];
-    const double *centre = influence->centre[e], *half = influence->half[e];
+    const struct element *element = &influence->mesh->element[influence->mesh->panel[p].first];
+    const double *centre = influence->centre[p], *half = influence->half[p];
     const struct near_rule rule = {.tolerance = influence->tolerance};
     struct far_view view = {{0, 0}, 0};
     for (int i = 0; i < images; i++) {
@@ -118,17 +118,18 @@ static struct far_view look(const struct influence *influence, size_t e, const d
     return view;
 }
 
-/* Elements at a distance from the point: shared nodes, all images summed before the basis. */
+/* Panels at a distance from the point: shared nodes, all images summed before the basis. */
 WAVE_MULTIVERSION
 static void far_rows(const struct influence *influence, const double image[4][3],
                      const struct far_view *views, int images, double *direct, double *mirrored,
                      size_t stride)
 {
-    for (size_t e = 0; e < influence->mesh->n; e++) {
-        const struct far_view *view = &views[e];
+    const struct mesh *mesh = influence->mesh;
+    for (size_t p = 0; p < mesh->panels; p++) {
+        const struct far_view *view = &views[p];
         if (!view->images)
             continue;
-        const struct regular_rule *rule = regular_rule_of(influence, e, view->class);
+        const struct regular_rule *rule = regular_rule_of(influence, p, view->class);
         double k[2][3 * REGULAR_MOST * REGULAR_MOST];
         memset(k[0], 0, 3 * rule->n * sizeof(double));
         memset(k[1], 0, 3 * rule->n * sizeof(double));
@@ -136,7 +137,7 @@ static void far_rows(const struct influence *influence, const double image[4][3]
             if (view->images >> i & 1u)
                 kernel(image[i], &reflections[i], reflections[i].z, rule->n, rule->x, rule->y,
                        rule->z, k[i & 1], rule->n);
-        const struct element *element = &influence->mesh->element[e];
+        const struct element *element = &mesh->element[mesh->panel[p].first];
         if (direct)
             regular_scatter(element, rule, 3, k[0], rule->n, direct, stride);
         if (mirrored)
@@ -144,30 +145,46 @@ static void far_rows(const struct influence *influence, const double image[4][3]
     }
 }
 
+/* Panels near one image of the point, element by element. */
 static igabem_status near_rows(const struct influence *influence, size_t point,
                                const double image[4][3], const struct far_view *views, int i,
                                struct rankine_work *work, double *rows)
 {
     const struct density *density = influence->density;
+    const struct mesh *mesh = influence->mesh;
     struct near_rule rule = {.point = {image[i][0], image[i][1], image[i][2]},
                              .tolerance = influence->tolerance,
                              .gauss = &influence->gauss};
-    for (size_t e = 0; e < influence->mesh->n; e++) {
-        if (views[e].images >> i & 1u)
+    for (size_t p = 0; p < mesh->panels; p++) {
+        if (views[p].images >> i & 1u)
             continue;
-        const struct element *element = &influence->mesh->element[e];
-        double local[2], correction[3];
-        if (i == 0 && element_contains(density, element, point, local)) {
-            singular_nodes(element, local[0], local[1], singular_order(influence->tolerance),
-                           &influence->gauss, &work->nodes, correction);
-            add_correction(element, local, correction, rows, density->n);
-            continue;
+        for (size_t e = mesh->panel[p].first; e < mesh->panel[p].first + mesh->panel[p].count;
+             e++) {
+            const struct element *element = &mesh->element[e];
+            double local[2], correction[3];
+            if (i == 0 && element_contains(density, element, point, local)) {
+                singular_nodes(element, local[0], local[1], singular_order(influence->tolerance),
+                               &influence->gauss, &work->nodes, correction);
+                add_correction(element, local, correction, rows, density->n);
+                continue;
+            }
+            struct domain domain;
+            domain_whole(element, &domain);
+            near_nodes(&rule, &domain, &work->nodes);
         }
-        struct domain domain;
-        domain_whole(element, &domain);
-        near_nodes(&rule, &domain, &work->nodes);
     }
     return flush(work, image[i], &reflections[i], rows, density->n);
+}
+
+/* Whether an element of the panel contains the collocation point. */
+static int panel_contains(const struct influence *influence, const struct panel *panel,
+                          size_t point)
+{
+    double local[2];
+    for (size_t e = panel->first; e < panel->first + panel->count; e++)
+        if (element_contains(influence->density, &influence->mesh->element[e], point, local))
+            return 1;
+    return 0;
 }
 
 static igabem_status point_rows(const struct influence *influence, size_t point,
@@ -179,11 +196,10 @@ static igabem_status point_rows(const struct influence *influence, size_t point,
     double image[4][3];
     for (int i = 0; i < images; i++)
         reflect(density->point + 3 * point, &reflections[i], image[i]);
-    for (size_t e = 0; e < influence->mesh->n; e++) {
-        double local[2];
-        views[e] = look(influence, e, (const double(*)[3])image, images);
-        if (element_contains(density, &influence->mesh->element[e], point, local))
-            views[e].images &= ~1u;
+    for (size_t p = 0; p < influence->mesh->panels; p++) {
+        views[p] = look(influence, p, (const double(*)[3])image, images);
+        if (panel_contains(influence, &influence->mesh->panel[p], point))
+            views[p].images &= ~1u;
     }
     far_rows(influence, (const double(*)[3])image, views, images, direct, mirrored, density->n);
     igabem_status status = IGABEM_OK;
@@ -203,7 +219,7 @@ igabem_status influence_rankine(const struct influence *influence, double *ranki
     {
         struct rankine_work work = {0};
         nodes_init(&work.nodes, influence->mesh);
-        struct far_view *views = malloc(influence->mesh->n * sizeof *views);
+        struct far_view *views = malloc(influence->mesh->panels * sizeof *views);
         igabem_status status =
             views ? IGABEM_OK : igabem_fail(IGABEM_ERROR_MEMORY, "no memory for a matrix row");
 #pragma omp for schedule(dynamic, 4)

@@ -111,8 +111,11 @@ static igabem_status start_solution(const igabem_hull *hull, const igabem_option
         solution->speed = options->froude * sqrt(options->gravity * hull->length);
         solution->k0 = options->gravity / (solution->speed * solution->speed);
     }
-    const int refine[2] = {solution->options.refine, solution->options.refine_v};
-    status = density_create(hull, solution->options.degree, refine, &solution->density);
+    const struct density_rule rule = {
+        .degree = solution->options.degree,
+        .refine = {solution->options.refine, solution->options.refine_v},
+        .elements = {solution->options.elements_u, solution->options.elements_v}};
+    status = density_create(hull, &rule, &solution->density);
     if (status != IGABEM_OK)
         return status;
     solution->sigma = malloc(solution->density->n * sizeof *solution->sigma);
@@ -314,7 +317,8 @@ static igabem_status solve_group(struct shared *shared, const size_t *member, si
 
 static int same_group(const igabem_options *a, const igabem_options *b)
 {
-    return a->refine == b->refine && a->refine_v == b->refine_v && a->degree == b->degree &&
+    return a->refine == b->refine && a->refine_v == b->refine_v && a->elements_u == b->elements_u &&
+           a->elements_v == b->elements_v && a->degree == b->degree &&
            a->tolerance == b->tolerance && a->threads == b->threads;
 }
 

@@ -55,7 +55,8 @@ static void evaluate(const igabem_solution *solution, const struct nodes *nodes,
         for (size_t c = 0; c < 3 && solution->velocity; c++)
             element_gather(element, solution->velocity + c * unknowns, field[c + 1]);
         for (size_t i = block->begin; i < block->end; i++) {
-            double weight = at_node(nodes, element, i, element->net + 3, 4);
+            double weight =
+                element->rational ? at_node(nodes, element, i, element->net + 3, 4) : 1.0;
             columns->strength[i] = nodes->g[i] * at_node(nodes, element, i, field[0], 1);
             columns->measure[i] = nodes->g[i] * weight;
             for (size_t c = 0; c < 3 && solution->velocity; c++)

@@ -15,10 +15,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* An element or a segment of the waterline. */
+/* A panel or a segment of the waterline. */
 struct source {
-    const struct element *element;
-    const struct line_segment *segment; /* NULL: the element */
+    const struct element *element; /* one of the panel's: they share their functions */
+    const struct panel *panel;
+    const struct line_segment *segment; /* NULL: the panel */
     double box[2];                      /* bounds of x */
     double *moments;                    /* [function][set][re, im][angle] */
 };
@@ -139,16 +140,20 @@ static void source_nodes(const struct wave *wave, const struct source *source, d
             nodes->g[i] /= wave->k0;
         return;
     }
-    struct domain pieces[DOMAIN_PIECES];
-    if (x > source->box[0]) {
-        size_t n = domain_cut(source->element, x, pieces);
+    for (size_t e = source->panel->first; e < source->panel->first + source->panel->count; e++) {
+        const struct element *element = &wave->influence->mesh->element[e];
+        struct domain pieces[DOMAIN_PIECES];
+        size_t n = 0;
+        if (element->box[0][0] >= x) {
+            domain_whole(element, pieces);
+            pieces[n++].ahead = 1;
+        } else if (element->box[1][0] > x) {
+            n = domain_cut(element, x, pieces);
+        }
         for (size_t k = 0; k < n; k++)
             if (pieces[k].ahead)
                 wave_nodes(rule, &pieces[k], nodes);
-        return;
     }
-    domain_whole(source->element, pieces);
-    wave_nodes(rule, pieces, nodes);
 }
 
 static igabem_status source_moments(const struct wave *wave, struct source *source,
@@ -159,7 +164,7 @@ static igabem_status source_moments(const struct wave *wave, struct source *sour
     source_nodes(wave, source, -INFINITY, &wave->rule, &work->nodes);
     if (work->nodes.failed || !reserve(work, m * work->nodes.n))
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for wave moments");
-    nodes_fold(&work->nodes, source->element, work->f);
+    nodes_fold(&work->nodes, work->f);
     memset(source->moments, 0, m * wave->width * sizeof *source->moments);
     accumulate(wave, &work->nodes, m, work->f, work->buffer, source->moments);
     return IGABEM_OK;
@@ -373,19 +378,19 @@ static igabem_status sort_points(struct wave *wave, const char *row)
 static igabem_status make_sources(struct wave *wave)
 {
     const struct mesh *mesh = wave->influence->mesh;
-    size_t n = mesh->n + (wave->line ? wave->line->n : 0), doubles = 0;
+    size_t n = mesh->panels + (wave->line ? wave->line->n : 0), doubles = 0;
     wave->source = malloc(n * sizeof *wave->source);
     if (!wave->source)
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu sources", n);
     for (size_t i = 0; i < n; i++) {
         struct source *source = &wave->source[i];
         *source = (struct source){0};
-        if (i < mesh->n) {
-            source->element = &mesh->element[i];
-            source->box[0] = source->element->box[0][0];
-            source->box[1] = source->element->box[1][0];
+        if (i < mesh->panels) {
+            source->panel = &mesh->panel[i];
+            source->element = &mesh->element[source->panel->first];
+            memcpy(source->box, wave->influence->box[i], sizeof source->box);
         } else {
-            source->segment = &wave->line->segment[i - mesh->n];
+            source->segment = &wave->line->segment[i - mesh->panels];
             source->element = source->segment->element;
             memcpy(source->box, source->segment->box, sizeof source->box);
         }

@@ -56,10 +56,13 @@ typedef struct igabem_options {
     igabem_kernel kernel;           /**< IGABEM_KERNEL_KELVIN */
     igabem_formulation formulation; /**< IGABEM_AUTOMATIC */
 
-    int refine;   /**< each knot span split in this many, >= 1; 1 (l of the paper's eq. 14) */
-    int refine_v; /**< the same for direction v of the patches (u along the hull, v around it, as
-                     the primitives have it); 0: like refine */
-    int degree;   /**< least degree of the density; 3: lower geometry is elevated */
+    int refine;     /**< each knot span split in this many, >= 1; 1 (l of the paper's eq. 14) */
+    int refine_v;   /**< the same for direction v of the patches (u along the hull, v around it, as
+                       the primitives have it); 0: like refine */
+    int elements_u; /**< > 0: the density has its own uniform knots with this many spans along u,
+                       whatever the knots of the hull; 0: those of the hull, refined; 0 */
+    int elements_v; /**< the same along v; 0 */
+    int degree;     /**< least degree of the density; 3: lower geometry is elevated */
 
     int line_term;        /**< Brard's waterline integral on (1) or off (0); 1 */
     double cutoff_angle;  /**< t_c of the filter exp(-((1+t^2)/(1+t_c^2))^2), t = tan(theta); NAN:
