@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+static const double irregular_spans = 3.0;
 static const double transom_stem_factor = 1.44, stem_factor = 2.0;
 
 const char *igabem_formulation_name(igabem_formulation formulation)
@@ -39,6 +40,8 @@ void igabem_options_init(igabem_options *options)
                                 .kernel = IGABEM_KERNEL_KELVIN,
                                 .formulation = IGABEM_AUTOMATIC,
                                 .refine = 1,
+                                .elements_u = -1,
+                                .elements_v = -1,
                                 .degree = 3,
                                 .line_term = 1,
                                 .cutoff_angle = NAN,
@@ -84,9 +87,9 @@ static igabem_status check(const igabem_options *options)
     if (status == IGABEM_OK)
         status = check_range("refine_v", options->refine_v, 0, 1000);
     if (status == IGABEM_OK)
-        status = check_range("elements_u", options->elements_u, 0, 100000);
+        status = check_range("elements_u", options->elements_u, -1, 100000);
     if (status == IGABEM_OK)
-        status = check_range("elements_v", options->elements_v, 0, 100000);
+        status = check_range("elements_v", options->elements_v, -1, 100000);
     if (status == IGABEM_OK)
         status = check_range("degree", options->degree, 1, 9);
     if (status == IGABEM_OK)
@@ -102,6 +105,42 @@ static igabem_status check(const igabem_options *options)
     return status;
 }
 
+/* Spans of one direction of a patch; *ratio of the largest to the smallest. */
+static size_t spans(const struct hull_patch *patch, int direction, double *ratio)
+{
+    size_t n = nurbs_surface_size(patch->surface, direction), count = 0;
+    size_t last = n + (size_t)nurbs_surface_degree(patch->surface, direction);
+    const double *knots = nurbs_surface_knots(patch->surface, direction);
+    double smallest = INFINITY, largest = 0.0;
+    for (size_t k = 0; k < last; k++) {
+        double span = knots[k + 1] - knots[k];
+        if (!(span > 0))
+            continue;
+        smallest = fmin(smallest, span);
+        largest = fmax(largest, span);
+        count++;
+    }
+    *ratio = largest / smallest;
+    return count;
+}
+
+/* Knots that are crowded in some places and far apart in others waste unknowns here and lack them
+ * there, and they move when the shape does. */
+static void choose_elements(const igabem_hull *hull, igabem_options *options)
+{
+    int *elements[2] = {&options->elements_u, &options->elements_v};
+    size_t count[2] = {0, 0};
+    int own = 0;
+    for (int d = 0; d < 2 && hull->n == 1; d++) {
+        double ratio;
+        count[d] = spans(&hull->patches[0], d, &ratio);
+        own |= ratio > irregular_spans;
+    }
+    for (int d = 0; d < 2; d++)
+        if (*elements[d] < 0)
+            *elements[d] = own ? (int)count[d] : 0;
+}
+
 igabem_status igabem_options_freeze(const igabem_hull *hull, igabem_options *options)
 {
     igabem_status status = check(options);
@@ -109,6 +148,7 @@ igabem_status igabem_options_freeze(const igabem_hull *hull, igabem_options *opt
         return status;
     if (options->refine_v == 0)
         options->refine_v = options->refine;
+    choose_elements(hull, options);
     if (options->formulation == IGABEM_AUTOMATIC)
         options->formulation = hull->transom && hull->surface_piercing ? IGABEM_NEUMANN_KELVIN_STERN
                                                                        : IGABEM_NEUMANN_KELVIN;

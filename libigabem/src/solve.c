@@ -111,10 +111,11 @@ static igabem_status start_solution(const igabem_hull *hull, const igabem_option
         solution->speed = options->froude * sqrt(options->gravity * hull->length);
         solution->k0 = options->gravity / (solution->speed * solution->speed);
     }
+    const igabem_options *used = &solution->options;
     const struct density_rule rule = {
-        .degree = solution->options.degree,
-        .refine = {solution->options.refine, solution->options.refine_v},
-        .elements = {solution->options.elements_u, solution->options.elements_v}};
+        .degree = used->degree,
+        .refine = {used->refine, used->refine_v},
+        .elements = {used->elements_u * used->refine, used->elements_v * used->refine_v}};
     status = density_create(hull, &rule, &solution->density);
     if (status != IGABEM_OK)
         return status;

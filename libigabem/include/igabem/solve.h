@@ -59,9 +59,12 @@ typedef struct igabem_options {
     int refine;     /**< each knot span split in this many, >= 1; 1 (l of the paper's eq. 14) */
     int refine_v;   /**< the same for direction v of the patches (u along the hull, v around it, as
                        the primitives have it); 0: like refine */
-    int elements_u; /**< > 0: the density has its own uniform knots with this many spans along u,
-                       whatever the knots of the hull; 0: those of the hull, refined; 0 */
-    int elements_v; /**< the same along v; 0 */
+    int elements_u; /**< > 0: the density has its own uniform knots with this many spans along u
+                       (times refine), whatever the knots of the hull; 0: those of the hull; -1
+                       (default): own knots, as many as the hull has, when one patch makes the hull
+                       and its spans differ by more than a factor of 3, as after knot removal; else
+                       0 */
+    int elements_v; /**< the same along v; -1 */
     int degree;     /**< least degree of the density; 3: lower geometry is elevated */
 
     int line_term;        /**< Brard's waterline integral on (1) or off (0); 1 */
