@@ -7,6 +7,7 @@
 #include "error.h"
 #include "interpolate.h"
 #include "parametrize.h"
+#include <nurbs/section.h>
 
 #include <math.h>
 #include <stdlib.h>
@@ -215,5 +216,11 @@ nurbs_status nurbs_skin(const nurbs_grid *grid, const nurbs_skin_options *option
         status = build_surface(options->degree, &work, surface);
     }
     skin_release(&work);
+    if (status == NURBS_OK)
+        status = nurbs_surface_check_fold(*surface, NULL);
+    if (status != NURBS_OK) {
+        nurbs_surface_free(*surface);
+        *surface = NULL;
+    }
     return status;
 }

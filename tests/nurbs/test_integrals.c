@@ -1,0 +1,188 @@
+#include "check.h"
+#include "hulls.h"
+
+#include <string.h>
+
+static const double pi = 3.14159265358979323846;
+
+static nurbs_hydrostatics compute(const nurbs_surface *surface, double level)
+{
+    nurbs_hydrostatics h;
+    nurbs_status status = nurbs_hydrostatics_compute(1, &surface, level, &h);
+    if (status != NURBS_OK)
+        fprintf(stderr, "%s\n", nurbs_last_error());
+    CU_ASSERT_EQUAL_FATAL(status, NURBS_OK);
+    return h;
+}
+
+/* Integrals of y = (B/2)(1 - X^2)(1 - Z^2), X = 2x/L, Z = z/T. */
+static void wigley_in_closed_form(void)
+{
+    const double L = 2.5, B = 0.25, T = 0.16;
+    nurbs_surface *hull;
+    CU_ASSERT_EQUAL_FATAL(nurbs_make_wigley(L, B, T, &hull), NURBS_OK);
+    nurbs_hydrostatics h = compute(hull, 0);
+    CHECK_RELATIVE(h.volume, 4.0 / 9 * L * B * T, 1e-10);
+    CHECK_CLOSE(h.centroid[0], 0, 1e-12);
+    CHECK_RELATIVE(h.centroid[2], -3.0 / 8 * T, 1e-10);
+    CHECK_RELATIVE(h.waterplane_area, 2.0 / 3 * L * B, 1e-10);
+    CHECK_CLOSE(h.waterplane_centre, 0, 1e-12);
+    /* 2/3 int y^3 dx with int (1 - X^2)^3 = 32/35, and 2 int x^2 y dx with int X^2 (1 - X^2) =
+     * 4/15.
+     */
+    CHECK_RELATIVE(h.waterplane_inertia_x, 2.0 / 3 * pow(B / 2, 3) * 32.0 / 35 * L / 2, 1e-10);
+    CHECK_RELATIVE(h.waterplane_inertia_y, B * pow(L / 2, 3) * 4.0 / 15, 1e-10);
+    CHECK_RELATIVE(h.beam, B, 1e-10);
+    CHECK_RELATIVE(h.draft, T, 1e-10);
+    CHECK_RELATIVE(h.keel_draft, T, 1e-10);
+    CHECK_RELATIVE(h.x_fore, L / 2, 1e-12);
+    CHECK_RELATIVE(h.x_aft, -L / 2, 1e-12);
+    CHECK_CLOSE(h.transom_area, 0, 0);
+    CHECK_RELATIVE(h.section_area_max, 2.0 / 3 * B * T, 1e-10);
+    CHECK_CLOSE(h.section_area_max_x, 0, 1e-4 * L);
+    /* The wetted area has no closed form: sum of sqrt(1 + y_x^2 + y_z^2) by the midpoint rule. */
+    double area = 0;
+    enum { N = 1500 };
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < N; j++) {
+            double X = (i + 0.5) / N, Z = (j + 0.5) / N, yx = -2 * B / L * X * (1 - Z * Z),
+                   yz = B / T * Z * (1 - X * X);
+            area += sqrt(1 + yx * yx + yz * yz);
+        }
+    CHECK_RELATIVE(h.wetted_area, 2 * L * T * area / N / N, 1e-7);
+    CU_ASSERT(h.error < 1e-11);
+    nurbs_surface_free(hull);
+}
+
+/* Area of a prolate spheroid: 2 pi b^2 + 2 pi a b asin(e)/e. */
+static void spheroid_in_closed_form(void)
+{
+    const double a = 1.5, b = 0.3, e = sqrt(1 - b * b / (a * a));
+    nurbs_surface *body;
+    CU_ASSERT_EQUAL_FATAL(nurbs_make_ellipsoid(2 * a, 2 * b, 2 * b, 0.4, &body), NURBS_OK);
+    nurbs_hydrostatics h = compute(body, 0);
+    CHECK_RELATIVE(h.volume, 4.0 / 3 * pi * a * b * b, 1e-10);
+    CHECK_RELATIVE(h.wetted_area, 2 * pi * (b * b + a * b * asin(e) / e), 1e-10);
+    CHECK_CLOSE(h.centroid[0], 0, 1e-12);
+    CHECK_RELATIVE(h.centroid[2], -0.4, 1e-10);
+    CHECK_CLOSE(h.waterplane_area, 0, 0);
+    CHECK_RELATIVE(h.draft, 0.7, 1e-10);
+    CHECK_RELATIVE(h.beam, 0.6, 1e-10);
+    CHECK_RELATIVE(h.x_fore, 1.5, 1e-10);
+    CHECK_RELATIVE(h.section_area_max, pi * b * b, 1e-10);
+    CHECK_CLOSE(h.transom_area, 0, 0);
+    double area, error;
+    CU_ASSERT_EQUAL(nurbs_surface_area(body, &area, &error), NURBS_OK);
+    CHECK_RELATIVE(2 * area, h.wetted_area, 1e-12);
+    CU_ASSERT(error < 1e-11);
+    nurbs_surface_free(body);
+}
+
+static void ellipsoid_volume(void)
+{
+    nurbs_surface *body;
+    CU_ASSERT_EQUAL_FATAL(nurbs_make_ellipsoid(2, 0.5, 0.3, 1, &body), NURBS_OK);
+    nurbs_hydrostatics h = compute(body, 0.2);
+    CHECK_RELATIVE(h.volume, pi / 6 * 2 * 0.5 * 0.3, 1e-10);
+    CHECK_RELATIVE(h.draft, 1.35, 1e-10);
+    nurbs_surface_free(body);
+}
+
+/* The stated error covers the true one on a half-immersed sphere, whose cut is a fit. */
+static void sphere_cut_in_halves(void)
+{
+    nurbs_surface *body, *wet;
+    CU_ASSERT_EQUAL_FATAL(nurbs_make_ellipsoid(1, 1, 1, 0, &body), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_wetted(body, 0, 1e-6, &wet), NURBS_OK);
+    nurbs_hydrostatics h = compute(wet, 0);
+    CHECK_RELATIVE(h.volume, pi / 12, 1e-6);
+    CHECK_RELATIVE(h.wetted_area, pi / 2, 1e-6);
+    CHECK_RELATIVE(h.centroid[2], -3.0 / 16, 1e-5);
+    CHECK_RELATIVE(h.waterplane_area, pi / 4, 1e-6);
+    CHECK_RELATIVE(h.waterplane_inertia_x, pi / 64, 1e-5);
+    CHECK_RELATIVE(h.waterplane_inertia_y, pi / 64, 1e-5);
+    nurbs_surface_free(wet);
+    nurbs_surface_free(body);
+}
+
+/* Volume, wetted area and so on of the DTMB 5415 from a bicubic refinement of its public grid,
+ * clipped at z = 0 and summed panel by panel; agreement asked: 0.3 %. */
+static void dtmb5415_against_panels(void)
+{
+    struct hull5415 hull;
+    nurbs_surface *wet;
+    CU_ASSERT_FATAL(hull5415_load(&hull));
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_wetted(hull.surface, 0, 5.72e-5, &wet), NURBS_OK);
+    nurbs_hydrostatics h = compute(wet, 0);
+    CHECK_RELATIVE(h.volume, 0.5535, 3e-3);
+    CHECK_RELATIVE(h.wetted_area, 4.850, 3e-3);
+    CHECK_RELATIVE(h.centroid[0], 2.8304, 3e-3);
+    CHECK_RELATIVE(h.centroid[2], -0.1007, 3e-3);
+    CHECK_RELATIVE(h.waterplane_area, 3.4003, 3e-3);
+    CHECK_RELATIVE(h.waterplane_centre, 5.72 - 3.1315, 3e-3);
+    CHECK_RELATIVE(h.beam, 0.7691, 3e-3);
+    CHECK_RELATIVE(h.keel_draft, 0.2481, 3e-3);
+    CHECK_RELATIVE(h.draft, 0.3700, 3e-3);
+    CHECK_CLOSE(h.x_fore, 5.7227, 2e-3);
+    CHECK_CLOSE(h.x_aft, 0.0236, 2e-3);
+    CHECK_RELATIVE(h.transom_area, 0.0067, 0.05);
+    CHECK_RELATIVE(h.section_area_max, 0.1566, 3e-3);
+    CU_ASSERT(h.error < 1e-6);
+    nurbs_surface_free(wet);
+    hull5415_free(&hull);
+}
+
+/* Patches add up, whatever their orientation. */
+static void two_patches_are_one_hull(void)
+{
+    nurbs_surface *hull, *part[2], *turned;
+    CU_ASSERT_EQUAL_FATAL(nurbs_make_wigley(1, 0.1, 0.0625, &hull), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_part(hull, 0, 0, 0.4, &part[0]), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_part(hull, 0, 0.4, 1, &part[1]), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_swap(part[1], &turned), NURBS_OK);
+    nurbs_hydrostatics whole = compute(hull, 0), sum;
+    CU_ASSERT_EQUAL_FATAL(
+        nurbs_hydrostatics_compute(2, (const nurbs_surface *const[]){part[0], turned}, 0, &sum),
+        NURBS_OK);
+    CHECK_RELATIVE(sum.volume, whole.volume, 1e-12);
+    CHECK_RELATIVE(sum.wetted_area, whole.wetted_area, 1e-11);
+    CHECK_RELATIVE(sum.waterplane_area, whole.waterplane_area, 1e-12);
+    CHECK_RELATIVE(sum.waterplane_inertia_y, whole.waterplane_inertia_y, 1e-12);
+    CHECK_CLOSE(sum.centroid[0], 0, 1e-12);
+    CHECK_CLOSE(sum.transom_area, 0, 0);
+    CHECK_RELATIVE(sum.section_area_max, whole.section_area_max, 1e-10);
+    nurbs_surface_free(hull);
+    nurbs_surface_free(part[0]);
+    nurbs_surface_free(part[1]);
+    nurbs_surface_free(turned);
+}
+
+static void refuses_what_is_no_wetted_half_hull(void)
+{
+    nurbs_hydrostatics h;
+    nurbs_surface *hull, *moved;
+    CU_ASSERT_EQUAL(nurbs_hydrostatics_compute(0, NULL, 0, &h), NURBS_ERROR_ARGUMENT);
+    CU_ASSERT_EQUAL_FATAL(nurbs_make_wigley(1, 0.1, 0.0625, &hull), NURBS_OK);
+    const nurbs_surface *one = hull;
+    CU_ASSERT_EQUAL(nurbs_hydrostatics_compute(1, &one, NAN, &h), NURBS_ERROR_ARGUMENT);
+    CU_ASSERT_EQUAL(nurbs_hydrostatics_compute(1, &one, -0.03, &h), NURBS_ERROR_GEOMETRY);
+    CU_ASSERT_PTR_NOT_NULL(strstr(nurbs_last_error(), "cut the hull"));
+    const double shift[3] = {0, -0.04, 0};
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_transform(hull, NULL, shift, &moved), NURBS_OK);
+    one = moved;
+    CU_ASSERT_EQUAL(nurbs_hydrostatics_compute(1, &one, 0, &h), NURBS_ERROR_GEOMETRY);
+    nurbs_surface_free(moved);
+    nurbs_surface_free(hull);
+}
+
+static const struct check_case cases[] = {
+    {"wigley in closed form", wigley_in_closed_form},
+    {"spheroid in closed form", spheroid_in_closed_form},
+    {"ellipsoid volume", ellipsoid_volume},
+    {"sphere cut in halves", sphere_cut_in_halves},
+    {"DTMB 5415 against panels", dtmb5415_against_panels},
+    {"two patches are one hull", two_patches_are_one_hull},
+    {"refuses what is no wetted half hull", refuses_what_is_no_wetted_half_hull},
+};
+
+CHECK_MAIN("nurbs integrals", cases)
