@@ -227,8 +227,16 @@ static bool read_verification(const char *path, const struct config_file *file,
     return true;
 }
 
+static bool read_waves(const char *path, const struct config_file *file, struct config *config)
+{
+    return read_count(path, "waves.along", file->waves.along, 2, 5000, &config->waves_along) &&
+           read_count(path, "waves.across", file->waves.across, 2, 5000, &config->waves_across);
+}
+
 static void set_defaults(struct config *config)
 {
+    config->waves_along = 221;
+    config->waves_across = 66;
     config->samples = 9000;
     config->latent_seed = 1;
     config->variance = 0.95;
@@ -303,7 +311,7 @@ static void write_settings(FILE *out, const struct config *c)
     fprintf(out, "verification.refine = %d\nverification.froude =", c->verify_refine);
     for (size_t i = 0; i < c->verify_froudes; i++)
         fprintf(out, "%s %.15g", i ? "," : "", c->verify_froude[i]);
-    fputc('\n', out);
+    fprintf(out, "\nwaves.along = %zu\nwaves.across = %zu\n", c->waves_along, c->waves_across);
 }
 
 static bool write_text(struct config *config)
@@ -329,7 +337,8 @@ static bool interpret(const char *path, const struct config_file *file,
         !read_file_name(path, "shape", file->shape, &config->shape))
         return false;
     if (!read_latent(path, file, config) || !read_flow(path, file, &config->solver) ||
-        !read_search(path, file, config) || !read_verification(path, file, config))
+        !read_search(path, file, config) || !read_verification(path, file, config) ||
+        !read_waves(path, file, config))
         return false;
     if (overrides && overrides->initial != SIZE_MAX)
         config->initial = overrides->initial;

@@ -31,6 +31,7 @@ struct config {
     int verify_refine;
     size_t verify_froudes;
     double verify_froude[CONFIG_FROUDE_MOST];
+    size_t waves_along, waves_across; /* points of the wave pattern */
 
     char *text; /* "field = value" lines with the digests of the input files */
 };

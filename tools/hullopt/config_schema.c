@@ -66,6 +66,12 @@ static const cyaml_schema_field_t verification[] = {
     CYAML_FIELD_END,
 };
 
+static const cyaml_schema_field_t waves[] = {
+    OPTIONAL(along, config_waves),
+    OPTIONAL(across, config_waves),
+    CYAML_FIELD_END,
+};
+
 static const cyaml_schema_field_t fields[] = {
     OPTIONAL(name, config_file),
     REQUIRED(hull, config_file),
@@ -78,6 +84,7 @@ static const cyaml_schema_field_t fields[] = {
     SECTION(constraints, constraints),
     SECTION(search, search),
     SECTION(verification, verification),
+    SECTION(waves, waves),
     CYAML_FIELD_END,
 };
 

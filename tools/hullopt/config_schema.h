@@ -35,6 +35,9 @@ struct config_file {
         char **froude;
         unsigned froude_count;
     } verification;
+    struct config_waves {
+        char *along, *across;
+    } waves;
 };
 
 /* On failure prints the sentence and returns false. */

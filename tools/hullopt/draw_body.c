@@ -36,9 +36,15 @@ static double first_station(const struct results *r)
     return fabs(aft) < 0.02 * r->parent.length ? 0 : aft;
 }
 
-/* The number stands outside the upper end of the section. */
-static void number_station(FILE *out, const struct svg_frame *frame, const double (*yz)[2],
-                           size_t n, double side, int station)
+/* A plan in the making: numbers that would stand on the one before are left out. */
+struct plan {
+    FILE *out;
+    struct svg_frame frame;
+    double last_x, last_y;
+};
+
+static void number_station(struct plan *plan, const double (*yz)[2], size_t n, double side,
+                           int station)
 {
     char text[16];
     const double *top = NULL;
@@ -47,14 +53,31 @@ static void number_station(FILE *out, const struct svg_frame *frame, const doubl
             top = yz[j];
     if (!top)
         return;
+    double x = svg_x(&plan->frame, side * top[0]), y = svg_y(&plan->frame, top[1]) - 5;
+    if (hypot(x - plan->last_x, y - plan->last_y) < 13)
+        return;
+    plan->last_x = x;
+    plan->last_y = y;
     snprintf(text, sizeof text, "%d", station);
-    svg_text(out, svg_x(frame, side * top[0]), svg_y(frame, top[1]) - 5, 10.5, "middle", SVG_MUTED,
-             text);
+    svg_text(plan->out, x, y, 10.5, "middle", SVG_MUTED, text);
 }
 
-static void draw_sections(FILE *out, const struct svg_frame *frame, const struct results *r,
-                          const nurbs_surface *surface, const char *colour, const char *dashes,
-                          bool numbers)
+/* Scraps of a section, where it just touches the stem or the edge of the transom, say nothing. */
+static void drop_scraps(size_t n, double *x)
+{
+    enum { SCRAP = 8 };
+    for (size_t start = 0; start < n;) {
+        size_t end = start;
+        while (end < n && isfinite(x[end]))
+            end++;
+        for (size_t j = start; j < end && end - start < SCRAP; j++)
+            x[j] = NAN;
+        start = end + 1;
+    }
+}
+
+static void draw_sections(struct plan *plan, const struct results *r, const nurbs_surface *surface,
+                          const char *colour, const char *dashes, bool numbers)
 {
     struct stations s;
     if (!stations_create(surface, &s))
@@ -70,9 +93,10 @@ static void draw_sections(FILE *out, const struct svg_frame *frame, const struct
             x[j] = side * yz[j][0];
             z[j] = yz[j][1];
         }
-        svg_curve(out, frame, s.nv, x, z, colour, 1.5, dashes);
+        drop_scraps(s.nv, x);
+        svg_curve(plan->out, &plan->frame, s.nv, x, z, colour, 1.5, dashes);
         if (numbers)
-            number_station(out, frame, (const double(*)[2])yz, s.nv, side, k);
+            number_station(plan, (const double(*)[2])yz, s.nv, side, k);
     }
     free(yz);
     free(x);
@@ -101,8 +125,9 @@ void draw_body_plan(FILE *out, const struct results *r)
     svg_text(out, svg_x(&f, f.x1), svg_y(&f, keel) + 13, 11, "end", SVG_MUTED, "base line");
     svg_line(out, svg_x(&f, 0), f.top - 8, svg_x(&f, 0), f.top + height + 8, SVG_MUTED, 1,
              "8 3 2 3");
-    draw_sections(out, &f, r, r->designs[0].full, SVG_ORIGINAL, "5 3", true);
-    draw_sections(out, &f, r, r->designs[1].full, SVG_OPTIMUM, NULL, false);
+    struct plan plan = {out, f, -100, -100};
+    draw_sections(&plan, r, r->designs[0].full, SVG_ORIGINAL, "5 3", true);
+    draw_sections(&plan, r, r->designs[1].full, SVG_OPTIMUM, NULL, false);
     svg_legend_row(out, 20, 22, legend, 2);
     svg_text(out, svg_x(&f, -e.beam / 2), height + 100, 12, "middle", SVG_MUTED, "aft body");
     svg_text(out, svg_x(&f, e.beam / 2), height + 100, 12, "middle", SVG_MUTED, "fore body");

@@ -128,7 +128,9 @@ static void paint(FILE *out, const struct face *faces, size_t n)
         for (int k = 1; k < 4; k++)
             fprintf(out, "l%d %d", f->corner[k][0] - f->corner[k - 1][0],
                     f->corner[k][1] - f->corner[k - 1][1]);
-        fprintf(out, "z\" fill=\"#%02x%02x%02x\"/>", f->colour[0], f->colour[1], f->colour[2]);
+        char colour[8];
+        snprintf(colour, sizeof colour, "#%02x%02x%02x", f->colour[0], f->colour[1], f->colour[2]);
+        fprintf(out, "z\" fill=\"%s\" stroke=\"%s\"/>", colour, colour);
         if (i % 4 == 3)
             fputc('\n', out);
     }

@@ -12,14 +12,22 @@ static struct svg_frame make_frame(void)
     return (struct svg_frame){.left = 68, .top = 16, .width = WIDTH - 88, .height = HEIGHT - 70};
 }
 
+/* As many modes as are worth a look: those of a linear family, or twice those kept. */
+static size_t shown(const struct latent *l)
+{
+    size_t n = l->parameters > 2 * l->modes ? l->parameters : 2 * l->modes;
+    return n < l->spectrum ? n : l->spectrum;
+}
+
 static void mark_kept(FILE *out, const struct svg_frame *frame, size_t modes, double value,
-                      const char *text)
+                      double text_below, const char *text)
 {
     double x = svg_x(frame, (double)modes), y = svg_y(frame, value);
     svg_line(out, x, frame->top, x, frame->top + frame->height, SVG_OPTIMUM, 1.2, "4 3");
     fprintf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"4.5\" fill=\"%s\"/>\n", x, y, SVG_OPTIMUM);
     bool right = x < frame->left + 0.6 * frame->width;
-    svg_text(out, right ? x + 9 : x - 9, y + 20, 12, right ? "start" : "end", SVG_OPTIMUM, text);
+    svg_text(out, right ? x + 9 : x - 9, y + text_below, 12, right ? "start" : "end", SVG_OPTIMUM,
+             text);
 }
 
 static void dots(FILE *out, const struct svg_frame *frame, size_t n, const double *x,
@@ -33,7 +41,7 @@ static void dots(FILE *out, const struct svg_frame *frame, size_t n, const doubl
 
 void draw_variance(FILE *out, const struct latent *latent, double wanted)
 {
-    size_t n = latent->spectrum;
+    size_t n = shown(latent);
     double *x = calloc(n + 1, sizeof *x), *y = calloc(n + 1, sizeof *y);
     struct svg_frame frame = make_frame();
     char text[80];
@@ -53,7 +61,7 @@ void draw_variance(FILE *out, const struct latent *latent, double wanted)
         svg_curve(out, &frame, n + 1, x, y, SVG_BLUE, 1.8, NULL);
         dots(out, &frame, n + 1, x, y);
         snprintf(text, sizeof text, "m = %zu: %.2f %%", latent->modes, 100 * latent->retained);
-        mark_kept(out, &frame, latent->modes, 100 * latent->retained, text);
+        mark_kept(out, &frame, latent->modes, 100 * latent->retained, 20, text);
     }
     svg_close(out);
     free(x);
@@ -62,7 +70,7 @@ void draw_variance(FILE *out, const struct latent *latent, double wanted)
 
 void draw_error(FILE *out, const struct latent *latent)
 {
-    size_t n = latent->spectrum;
+    size_t n = shown(latent);
     double *x = calloc(n, sizeof *x), *y = calloc(n, sizeof *y);
     struct svg_frame frame = make_frame();
     char text[80];
@@ -86,7 +94,7 @@ void draw_error(FILE *out, const struct latent *latent)
         double kept = latent->mse[latent->modes - 1];
         if (kept > frame.y0) {
             snprintf(text, sizeof text, "%.3g m²", kept);
-            mark_kept(out, &frame, latent->modes, kept, text);
+            mark_kept(out, &frame, latent->modes, kept, -10, text);
         }
     }
     svg_close(out);

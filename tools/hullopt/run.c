@@ -221,7 +221,7 @@ static bool run_stages(const struct run_options *options, const struct config *c
     }
     search_free(&search);
     ok = ok && find_best(store, modes, &best) && verify_run(config, evaluator, best, store) &&
-         waves_run(evaluator, best, store) &&
+         waves_run(config, evaluator, best, store) &&
          (!best || back_map(config, parent, shape, evaluator->latent, best, store)) &&
          store_update_session(store);
     free(best);

@@ -1,6 +1,7 @@
 #include "svg.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 void svg_open(FILE *out, double width, double height, const char *title)
 {
@@ -102,6 +103,15 @@ static void print_number(char *text, size_t size, double value, double step)
         snprintf(text, size, "%.*f", (int)fmax(0, -floor(log10(step) + 1e-9)), value);
 }
 
+/* "10⁻³" */
+static void print_power(char *text, size_t size, int exponent)
+{
+    static const char *const digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    int magnitude = abs(exponent);
+    snprintf(text, size, "10%s%s%s", exponent < 0 ? "⁻" : "",
+             magnitude > 9 ? digits[magnitude / 10 % 10] : "", digits[magnitude % 10]);
+}
+
 static void x_ticks(FILE *out, const struct svg_frame *f)
 {
     double step = tick_step(f->x1 - f->x0, 7);
@@ -120,7 +130,7 @@ static void y_tick(FILE *out, const struct svg_frame *f, double value, double st
     double y = svg_y(f, value);
     svg_line(out, f->left, y, f->left + f->width, y, SVG_GRID, 1, NULL);
     if (f->log_y)
-        snprintf(text, sizeof text, "%.0e", value);
+        print_power(text, sizeof text, (int)lround(log10(value)));
     else
         print_number(text, sizeof text, value, step);
     svg_text(out, f->left - 7, y + 4, 11, "end", SVG_MUTED, text);

@@ -39,6 +39,7 @@ void svg_colour_bar(FILE *out, double x, double y, double width, double height,
 {
     enum { STEPS = 48 };
     bool vertical = height > width;
+    fputs("<g shape-rendering=\"crispEdges\">", out);
     for (int k = 0; k < STEPS; k++) {
         unsigned char c[3];
         map((k + 0.5) / STEPS, c);
@@ -52,6 +53,7 @@ void svg_colour_bar(FILE *out, double x, double y, double width, double height,
                     x + width * share, y, width / STEPS + 0.3, height);
         fprintf(out, " fill=\"#%02x%02x%02x\"/>\n", c[0], c[1], c[2]);
     }
+    fputs("</g>\n", out);
     if (vertical) {
         svg_text(out, x + width / 2, y + height + 14, 11, "middle", SVG_MUTED, low);
         svg_text(out, x + width / 2, y - 6, 11, "middle", SVG_MUTED, high);

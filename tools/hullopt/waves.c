@@ -9,17 +9,18 @@
 
 /* The pictured field in lengths: ahead, astern and abeam of the hull. */
 static const double AHEAD = 0.2, ASTERN = 1.0, ABEAM = 0.65;
-enum { WAVES_X = 221, WAVES_Y = 66 };
 
-static bool field(const igabem_hull *hull, double length, struct waves *w)
+static bool field(const struct config *config, const igabem_hull *hull, double length,
+                  struct waves *w)
 {
     igabem_hull_info info;
     igabem_hull_get_info(hull, &info);
     double first = info.hydrostatics.x_aft - ASTERN * length;
     double last = info.hydrostatics.x_fore + AHEAD * length;
-    *w = (struct waves){.nx = WAVES_X, .ny = WAVES_Y, .x0 = first, .y0 = 0};
-    w->dx = (last - first) / (WAVES_X - 1);
-    w->dy = ABEAM * length / (WAVES_Y - 1);
+    *w =
+        (struct waves){.nx = config->waves_along, .ny = config->waves_across, .x0 = first, .y0 = 0};
+    w->dx = (last - first) / (double)(w->nx - 1);
+    w->dy = ABEAM * length / (double)(w->ny - 1);
     w->elevation = malloc(w->nx * w->ny * sizeof *w->elevation);
     return w->elevation != NULL;
 }
@@ -53,8 +54,8 @@ static bool save(struct store *store, const char *which, const struct waves *w)
     return store_put_array(store, name, w->nx, w->ny, w->elevation);
 }
 
-static bool compute(struct evaluator *evaluator, const double *u, const char *which,
-                    struct store *store)
+static bool compute(const struct config *config, struct evaluator *evaluator, const double *u,
+                    const char *which, struct store *store)
 {
     struct design design;
     struct failure failure;
@@ -63,7 +64,7 @@ static bool compute(struct evaluator *evaluator, const double *u, const char *wh
     igabem_solution *solution = NULL;
     if (!evaluate_build(evaluator, u, &design, &hull, &failure))
         return cli_fail("waves: %s: %s", failure.stage, failure.reason) == CLI_OK;
-    bool ok = field(hull, evaluator->parent->length, &w);
+    bool ok = field(config, hull, evaluator->parent->length, &w);
     if (!ok)
         cli_fail("out of memory");
     if (ok && igabem_solve(hull, &evaluator->solver, &solution) != IGABEM_OK)
@@ -77,7 +78,8 @@ static bool compute(struct evaluator *evaluator, const double *u, const char *wh
     return ok;
 }
 
-bool waves_run(struct evaluator *evaluator, const double *best, struct store *store)
+bool waves_run(const struct config *config, struct evaluator *evaluator, const double *best,
+               struct store *store)
 {
     static const char *const names[] = {"parent", "best"};
     const double *points[] = {NULL, best};
@@ -89,7 +91,7 @@ bool waves_run(struct evaluator *evaluator, const double *best, struct store *st
         if (waves_load(store, names[k], &w))
             free(w.elevation);
         else
-            ok = compute(evaluator, points[k], names[k], store);
+            ok = compute(config, evaluator, points[k], names[k], store);
         cli_progress_update(&progress, (k + 1) / 2.0, NULL);
     }
     cli_progress_end(&progress);

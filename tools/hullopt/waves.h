@@ -15,7 +15,8 @@ struct waves {
 };
 
 /* Computes both patterns unless the store holds them. best NULL: the parent alone. */
-bool waves_run(struct evaluator *evaluator, const double *best, struct store *store);
+bool waves_run(const struct config *config, struct evaluator *evaluator, const double *best,
+               struct store *store);
 
 /* which: "parent" or "best"; false when it is not there. Free waves->elevation. */
 bool waves_load(struct store *store, const char *which, struct waves *waves);
