@@ -1,5 +1,6 @@
 #include "band.h"
 #include "error.h"
+#include "multiversion.h"
 
 #include <nurbs/basis.h>
 
@@ -25,8 +26,31 @@ void band_free(struct band *band)
     memset(band, 0, sizeof *band);
 }
 
+/* The same for the three or four columns of single control points. */
+NURBS_INLINE void apply_narrow(const struct band *band, size_t columns, const double *in,
+                               double *out)
+{
+    for (size_t j = 0; j < band->rows; j++, out += columns) {
+        const double *weight = band->values + j * band->width;
+        const double *row = in + band->first[j] * columns;
+        double sum[4] = {0.0, 0.0, 0.0, 0.0};
+        for (size_t k = 0; k < band->width; k++, row += columns)
+            for (size_t c = 0; c < columns; c++)
+                sum[c] += weight[k] * row[c];
+        memcpy(out, sum, columns * sizeof *out);
+    }
+}
+
+NURBS_MULTIVERSION
 void band_apply(const struct band *band, size_t columns, const double *in, double *out)
 {
+    if (columns == 3 || columns == 4) {
+        if (columns == 3)
+            apply_narrow(band, 3, in, out);
+        else
+            apply_narrow(band, 4, in, out);
+        return;
+    }
     for (size_t j = 0; j < band->rows; j++, out += columns) {
         const double *weight = band->values + j * band->width;
         const double *row = in + band->first[j] * columns;

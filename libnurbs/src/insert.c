@@ -29,13 +29,12 @@ static nurbs_status merge_knots(const struct axis *axis, size_t n, const double 
     size_t used = 0;
     for (size_t k = 0, i = 0; k < count + n; k++)
         knots[k] = i < n && u[i] < axis->knots[used] ? u[i++] : axis->knots[used++];
-    size_t multiplicity = 0;
-    for (size_t i = 0; i < n; i++) {
-        if (i > 0 && u[i] == u[i - 1])
-            continue;
-        multiplicity = 0;
-        for (size_t k = 0; k < count + n; k++)
-            multiplicity += knots[k] == u[i];
+    for (size_t i = 0, k = p + 1; i < n; i++) {
+        while (knots[k] < u[i])
+            k++;
+        size_t multiplicity = 1;
+        while (knots[k + multiplicity] == u[i])
+            multiplicity++;
         if (multiplicity > p) {
             free(knots);
             return nurbs_fail(NURBS_ERROR_ARGUMENT,

@@ -4,6 +4,7 @@
 
 #include <nurbs/basis.h>
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -46,24 +47,36 @@ void axis_place(struct axis *axis, int degree, size_t size, const double *knots,
     }
 }
 
+/* Whether all n values are finite; without an early exit, so that it runs in vector registers. */
+NURBS_MULTIVERSION
+static int all_finite(size_t n, const double *values)
+{
+    int finite = 1;
+    for (size_t i = 0; i < n; i++)
+        finite &= fabs(values[i]) <= DBL_MAX;
+    return finite;
+}
+
 nurbs_status points_check(size_t n, const double *points, const double *weights)
 {
     if (!points)
         return nurbs_fail(NURBS_ERROR_ARGUMENT, "points is NULL, expected %zu x,y,z triples", n);
-    for (size_t i = 0; i < 3 * n; i++)
-        if (!isfinite(points[i]))
-            return nurbs_fail(NURBS_ERROR_ARGUMENT,
-                              "control point %zu has %c = %g, expected a finite number", i / 3,
-                              "xyz"[i % 3], points[i]);
-    for (size_t i = 0; weights && i < n; i++)
+    if (!all_finite(3 * n, points))
+        for (size_t i = 0; i < 3 * n; i++)
+            if (!isfinite(points[i]))
+                return nurbs_fail(NURBS_ERROR_ARGUMENT,
+                                  "control point %zu has %c = %g, expected a finite number", i / 3,
+                                  "xyz"[i % 3], points[i]);
+    for (size_t i = 0; weights && i < n; i++) {
         if (!isfinite(weights[i]) || weights[i] <= 0.0)
             return nurbs_fail(NURBS_ERROR_ARGUMENT,
                               "weight %zu is %g, expected a positive finite number", i, weights[i]);
-    for (size_t i = 0; weights && i < 3 * n; i++)
-        if (!isfinite(weights[i / 3] * points[i]))
-            return nurbs_fail(NURBS_ERROR_ARGUMENT,
-                              "control point %zu times its weight %g is not finite", i / 3,
-                              weights[i / 3]);
+        for (size_t c = 0; c < 3; c++)
+            if (!isfinite(weights[i] * points[3 * i + c]))
+                return nurbs_fail(NURBS_ERROR_ARGUMENT,
+                                  "control point %zu times its weight %g is not finite", i,
+                                  weights[i]);
+    }
     return NURBS_OK;
 }
 
