@@ -38,11 +38,12 @@ static int make_triangle(const struct jet *jet, const double a[2], const double 
         triangle->tangent[0][c] = jet->ds[c] * a[0] + jet->dt[c] * a[1];
         triangle->tangent[1][c] = jet->ds[c] * triangle->edge[0] + jet->dt[c] * triangle->edge[1];
     }
-    double ee = dot(triangle->tangent[1], triangle->tangent[1]);
-    double ae = dot(triangle->tangent[0], triangle->tangent[1]);
-    double aa = dot(triangle->tangent[0], triangle->tangent[0]);
-    triangle->foot = -ae / ee;
-    triangle->height = sqrt(fmax(aa / ee - triangle->foot * triangle->foot, 1e-24));
+    const double *p = triangle->tangent[0], *q = triangle->tangent[1];
+    const double cross[3] = {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2],
+                             p[0] * q[1] - p[1] * q[0]};
+    double square = dot(q, q);
+    triangle->foot = -dot(p, q) / square;
+    triangle->height = sqrt(dot(cross, cross)) / square;
     return 1;
 }
 
