@@ -214,10 +214,21 @@ nurbs_status nurbs_patches_read_json(const char *path, nurbs_patches **patches)
     return status;
 }
 
+/* As an integer, JSON's -0 would lose its sign. */
+static void write_number(FILE *stream, double value)
+{
+    if (value == 0 && signbit(value))
+        fprintf(stream, "-0.0");
+    else
+        fprintf(stream, "%.17g", value);
+}
+
 static void write_numbers(FILE *stream, size_t n, const double *values)
 {
-    for (size_t k = 0; k < n; k++)
-        fprintf(stream, "%s%s%.17g", k ? "," : "", k && k % 8 == 0 ? "\n" : "", values[k]);
+    for (size_t k = 0; k < n; k++) {
+        fprintf(stream, "%s%s", k ? "," : "", k && k % 8 == 0 ? "\n" : "");
+        write_number(stream, values[k]);
+    }
 }
 
 static void write_two_lists(FILE *stream, const char *name, const size_t n[2],
@@ -244,9 +255,11 @@ static void write_patch(FILE *stream, const nurbs_patches *patches, size_t index
         (const double *const[]){nurbs_surface_knots(surface, 0), nurbs_surface_knots(surface, 1)});
     size_t n = size[0] * size[1], count[2];
     fprintf(stream, ",\n\"points\":[");
-    for (size_t k = 0; k < n; k++)
-        fprintf(stream, "%s[%.17g,%.17g,%.17g]", k ? ",\n" : "", points[3 * k], points[3 * k + 1],
-                points[3 * k + 2]);
+    for (size_t k = 0; k < n; k++) {
+        fprintf(stream, "%s[", k ? ",\n" : "");
+        write_numbers(stream, 3, points + 3 * k);
+        fprintf(stream, "]");
+    }
     fprintf(stream, "]");
     if (weights) {
         fprintf(stream, ",\n\"weights\":[");
