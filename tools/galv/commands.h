@@ -3,5 +3,11 @@
 #define GALV_TOOL_COMMANDS_H
 
 int command_reduce(int argc, char **argv);
+int command_info(int argc, char **argv);
+int command_project(int argc, char **argv);
+int command_reconstruct(int argc, char **argv);
+int command_backmap(int argc, char **argv);
+int command_plot(int argc, char **argv);
+int command_animate(int argc, char **argv);
 
 #endif

@@ -10,6 +10,12 @@ static const char help[] =
     "Latent spaces of shape modifications.\n"
     "\n"
     "  reduce       sample a modification on a hull and find its latent space\n"
+    "  info         say what a model file holds\n"
+    "  project      latent coordinates of hulls or of parameters\n"
+    "  reconstruct  the hull of a latent point\n"
+    "  backmap      the parameters whose hull is nearest to a latent point's\n"
+    "  plot         variance and error curves and modes on the hull, as SVG\n"
+    "  animate      a strip of hulls along each latent direction, as SVG\n"
     "\n"
     "  --help       this text, or with a command its own\n"
     "  --version    version\n"
@@ -21,6 +27,12 @@ static const struct {
     int (*run)(int, char **);
 } commands[] = {
     {"reduce", "galv reduce", command_reduce},
+    {"info", "galv info", command_info},
+    {"project", "galv project", command_project},
+    {"reconstruct", "galv reconstruct", command_reconstruct},
+    {"backmap", "galv backmap", command_backmap},
+    {"plot", "galv plot", command_plot},
+    {"animate", "galv animate", command_animate},
 };
 
 int main(int argc, char **argv)

@@ -2,50 +2,118 @@
 
 #include "cli.h"
 #include "commands.h"
-#include "hull_grid.h"
-#include "shape_yaml.h"
+#include "hull.h"
+#include "model_file.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
-struct hull {
-    double *xyz, *weights;
-    size_t npoints, sections, girth;
+/* Samples that settle the weights of appended moments. */
+enum { PILOT = 500 };
+
+/* Everything a run holds. */
+struct reduction {
+    struct hull hull;
+    double *weights, *moment_weights;
+    struct shape_definition definition;
+    galv_shape *shape;
+    struct cli_table samples;
+    galv_moment_set set;
+    galv_extra extra;
+    galv_model *model;
 };
 
-static bool read_hull(const struct reduce_options *options, struct hull *hull)
+static void reduction_free(struct reduction *r)
 {
-    *hull = (struct hull){0};
-    if (!hull_grid_read(options->hull, &hull->xyz, &hull->npoints, &hull->sections, &hull->girth))
+    hull_free(&r->hull);
+    free(r->weights);
+    free(r->moment_weights);
+    shape_definition_free(&r->definition);
+    galv_shape_free(r->shape);
+    cli_table_free(&r->samples);
+    galv_model_free(r->model);
+}
+
+static bool load_hull(const struct reduce_options *options, struct reduction *r)
+{
+    if (!hull_read(options->hull, options->sections, options->girth, &r->hull))
         return false;
-    if (!options->area_weights)
-        return true;
-    if (hull->sections < 2 || hull->girth < 2) {
-        cli_fail("%s: area weights need the columns i,j of a full grid", options->hull);
+    bool grid = r->hull.sections >= 2 && r->hull.girth >= 2;
+    if ((options->area_weights || options->moments) && !grid) {
+        cli_fail("%s: area weights and moments need the columns i,j of a full grid", options->hull);
         return false;
     }
-    hull->weights = malloc(hull->npoints * sizeof *hull->weights);
-    if (!hull->weights) {
+    if (!options->area_weights)
+        return true;
+    r->weights = malloc(r->hull.npoints * sizeof *r->weights);
+    if (!r->weights) {
         cli_fail("out of memory");
         return false;
     }
-    if (galv_grid_weights(hull->sections, hull->girth, hull->xyz, hull->weights)) {
+    if (galv_grid_weights(r->hull.sections, r->hull.girth, r->hull.xyz, r->weights)) {
         cli_fail("%s: %s", options->hull, galv_last_error());
         return false;
     }
     return true;
 }
 
-/* The parameter vectors of a CSV file: as many columns as the shape has parameters. */
-static bool read_samples(const char *path, size_t n, struct cli_table *table)
+static bool load_shape(const struct reduce_options *options, struct reduction *r)
 {
-    if (!cli_table_read(path, table))
+    if (!shape_definition_read(options->shape, r->hull.npoints, r->hull.xyz, &r->definition))
         return false;
-    if (table->columns == n && table->rows > 0)
+    if (shape_definition_create(&r->definition, &r->shape)) {
+        cli_fail("%s: %s", options->shape, galv_last_error());
+        return false;
+    }
+    return true;
+}
+
+/* The parameter vectors of a CSV file: as many columns as the shape has parameters. */
+static bool load_samples(const struct reduce_options *options, struct reduction *r)
+{
+    size_t n = r->definition.n;
+    if (!options->samples)
         return true;
-    cli_fail("%s: %zu rows of %zu numbers, expected rows of %zu parameters", path, table->rows,
-             table->columns, n);
-    cli_table_free(table);
+    if (!cli_table_read(options->samples, &r->samples))
+        return false;
+    if (r->samples.columns == n && r->samples.rows > 0)
+        return true;
+    cli_fail("%s: %zu rows of %zu numbers, expected rows of %zu parameters", options->samples,
+             r->samples.rows, r->samples.columns, n);
     return false;
+}
+
+static galv_sampling choose_sampling(const struct reduce_options *options,
+                                     const struct reduction *r, size_t most)
+{
+    size_t count = options->samples ? r->samples.rows : options->random;
+    count = count < most ? count : most;
+    return options->samples ? galv_samples(count, r->samples.values)
+                            : galv_uniform(count, options->seed);
+}
+
+static bool add_moments(struct reduce_options *options, struct reduction *r)
+{
+    if (!options->moments)
+        return true;
+    r->set = (galv_moment_set){.sections = r->hull.sections,
+                               .girth = r->hull.girth,
+                               .order = (unsigned)options->moment_order};
+    r->extra = galv_moments_extra(&r->set);
+    r->moment_weights = malloc(r->extra.count * sizeof *r->moment_weights);
+    if (!r->moment_weights) {
+        cli_fail("out of memory");
+        return false;
+    }
+    if (galv_extra_balance(r->shape, r->hull.npoints, r->hull.xyz,
+                           choose_sampling(options, r, PILOT), &r->extra, options->moment_share,
+                           r->moment_weights)) {
+        cli_fail("%s", galv_last_error());
+        return false;
+    }
+    r->extra.weights = r->moment_weights;
+    options->build.extra = &r->extra;
+    return true;
 }
 
 static int show_progress(void *context, double fraction)
@@ -54,35 +122,38 @@ static int show_progress(void *context, double fraction)
     return 0;
 }
 
-static int reduce(struct reduce_options *options, const struct hull *hull, const galv_shape *shape)
+static bool build(struct reduce_options *options, struct reduction *r, double *seconds)
 {
-    struct cli_table table = {0};
-    galv_sampling sampling = galv_uniform(options->random, options->seed);
-    if (options->samples) {
-        if (!read_samples(options->samples, galv_shape_parameters(shape), &table))
-            return CLI_FAILED;
-        sampling = galv_samples(table.rows, table.values);
-    }
     struct cli_progress progress;
     cli_progress_start(&progress, "samples");
-    options->build.weights = hull->weights;
+    options->build.weights = r->weights;
     options->build.progress = show_progress;
     options->build.progress_context = &progress;
-    galv_model *model = NULL;
     double start = cli_seconds();
     galv_status status =
-        galv_build(shape, hull->npoints, hull->xyz, sampling, &options->build, &model);
-    double seconds = cli_seconds() - start;
+        galv_build(r->shape, r->hull.npoints, r->hull.xyz, choose_sampling(options, r, SIZE_MAX),
+                   &options->build, &r->model);
+    *seconds = cli_seconds() - start;
     cli_progress_end(&progress);
-    int result = CLI_FAILED;
     if (status)
         cli_fail("%s", galv_last_error());
-    else
-        result = options->json ? reduce_print_json(model, options, seconds)
-                               : reduce_print_text(model, seconds);
-    galv_model_free(model);
-    cli_table_free(&table);
-    return result;
+    return !status;
+}
+
+static bool write_model(const struct reduce_options *options, const struct reduction *r)
+{
+    if (!options->output)
+        return true;
+    struct model_file file = {.model = r->model,
+                              .shape = r->definition,
+                              .sections = r->hull.sections,
+                              .girth = r->hull.girth,
+                              .uniform = options->random > 0,
+                              .seed = options->seed,
+                              .moments = options->moments,
+                              .moment_order = options->moment_order};
+    snprintf(file.hull, sizeof file.hull, "%s", options->hull);
+    return model_file_write(options->output, &file);
 }
 
 int command_reduce(int argc, char **argv)
@@ -93,13 +164,15 @@ int command_reduce(int argc, char **argv)
         return result;
     if (options.threads)
         cli_set_threads(options.threads);
-    struct hull hull;
-    galv_shape *shape = NULL;
-    if (read_hull(&options, &hull))
-        shape = shape_yaml_read(options.shape, hull.npoints, hull.xyz);
-    result = shape ? reduce(&options, &hull, shape) : CLI_FAILED;
-    galv_shape_free(shape);
-    free(hull.xyz);
-    free(hull.weights);
+    struct reduction r = {.model = NULL};
+    double seconds = 0;
+    bool ok = load_hull(&options, &r) && load_shape(&options, &r) && load_samples(&options, &r) &&
+              add_moments(&options, &r) && build(&options, &r, &seconds) &&
+              write_model(&options, &r);
+    result = CLI_FAILED;
+    if (ok)
+        result = options.json ? reduce_print_json(r.model, &options, seconds)
+                              : reduce_print_text(r.model, &options, seconds);
+    reduction_free(&r);
     return result;
 }

@@ -8,11 +8,16 @@
 #include <stdint.h>
 
 struct reduce_options {
-    const char *hull, *shape, *samples;
-    size_t random; /* 0: samples from the file */
+    const char *hull, *shape, *samples, *output;
+    size_t sections, girth; /* to sample a NURBS hull at; 0: its own design grid */
+    size_t random;          /* 0: samples from the file */
     uint64_t seed;
     galv_options build;
     bool area_weights, json;
+    bool moments; /* append moments of the hull up to moment_order, with moment_share of the
+                     variance */
+    size_t moment_order;
+    double moment_share;
     int threads; /* 0: as the environment says */
 };
 
@@ -23,6 +28,7 @@ int reduce_parse(int argc, char **argv, struct reduce_options *options);
 int reduce_print_json(const galv_model *model, const struct reduce_options *options,
                       double seconds);
 /* The same for people. */
-int reduce_print_text(const galv_model *model, double seconds);
+int reduce_print_text(const galv_model *model, const struct reduce_options *options,
+                      double seconds);
 
 #endif

@@ -7,13 +7,16 @@
 #include <string.h>
 
 static const char help[] =
-    "usage: galv reduce --hull GRID.csv --shape SHAPE.yaml (--samples X.csv | --random N) "
+    "usage: galv reduce --hull HULL --shape SHAPE.yaml (--samples X.csv | --random N) "
     "[OPTION]...\n"
     "\n"
     "Samples the modification on the points of the grid and finds the directions of greatest\n"
     "geometric variance.\n"
     "\n"
-    "  --hull FILE        grid of points, CSV with the columns x,y,z and perhaps i,j, metres\n"
+    "  --hull FILE        grid of points, CSV with the columns x,y,z and perhaps i,j, metres; or "
+    "a\n"
+    "                     NURBS hull, JSON, sampled at its design grid\n"
+    "  --grid SxG         sections x girth points to sample a NURBS hull at instead\n"
     "  --shape FILE       the modification, YAML\n"
     "  --samples FILE     parameter vectors, CSV with one column per parameter, in order\n"
     "  --random N         N uniform draws within the bounds of the modification instead\n"
@@ -23,13 +26,20 @@ static const char help[] =
     "  --spectrum K       report at least K eigenvalues (default 64)\n"
     "  --centre           subtract the mean of the samples\n"
     "  --weights KIND     equal (default), or area: of the cells around each grid point\n"
-    "  --method NAME      auto (default), covariance, gram or randomised\n"
+    "  --moments ORDER    append the geometric moments of the hull up to ORDER\n"
+    "  --moment-share W   variance of the moments relative to that of the points (default 0.5)\n"
+    "  --method NAME      auto (default), covariance, gram, randomised or factored (linear "
+    "shapes)\n"
     "  --workspace MIB    memory for matrices and blocks of samples (default 512)\n"
+    "  -o, --output FILE  write the model, HDF5\n"
     "  --threads N        threads (default: as the environment says)\n"
     "  --json             print one JSON object\n";
 
 enum {
     HULL = 256,
+    GRID,
+    MOMENTS,
+    SHARE,
     SHAPE,
     SAMPLES,
     RANDOM,
@@ -49,6 +59,10 @@ enum {
 
 static const struct option table[] = {
     {"hull", required_argument, NULL, HULL},
+    {"grid", required_argument, NULL, GRID},
+    {"moments", required_argument, NULL, MOMENTS},
+    {"moment-share", required_argument, NULL, SHARE},
+    {"output", required_argument, NULL, 'o'},
     {"shape", required_argument, NULL, SHAPE},
     {"samples", required_argument, NULL, SAMPLES},
     {"random", required_argument, NULL, RANDOM},
@@ -79,13 +93,15 @@ static int parse_count(const char *option, size_t *out, size_t least, size_t mos
 
 static int parse_method(galv_method *method)
 {
-    static const char *const names[] = {"auto", "covariance", "gram", "randomised"};
+    static const char *const names[] = {"auto", "covariance", "gram", "randomised", "factored"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
         if (strcmp(optarg, names[i]) == 0) {
             *method = (galv_method)i;
             return -1;
         }
-    return cli_usage("--method '%s': expected auto, covariance, gram or randomised", optarg);
+    return cli_usage("--method '%s': expected auto, covariance, gram, randomised or "
+                     "factored",
+                     optarg);
 }
 
 static int parse_weights(bool *area)
@@ -94,6 +110,28 @@ static int parse_weights(bool *area)
     if (*area || strcmp(optarg, "equal") == 0)
         return -1;
     return cli_usage("--weights '%s': expected equal or area", optarg);
+}
+
+static int parse_grid(struct reduce_options *options)
+{
+    char *cross = strchr(optarg, 'x');
+    if (cross) {
+        *cross = '\0';
+        bool ok = cli_parse_size(optarg, &options->sections) &&
+                  cli_parse_size(cross + 1, &options->girth);
+        *cross = 'x';
+        if (ok && options->sections >= 2 && options->girth >= 2 && options->sections <= 100000 &&
+            options->girth <= 100000)
+            return -1;
+    }
+    return cli_usage("--grid '%s': expected SECTIONSxGIRTH, such as 90x25", optarg);
+}
+
+static int parse_share(double *share)
+{
+    if (!cli_parse_double(optarg, share) || !(*share > 0))
+        return cli_usage("--moment-share '%s': expected a number above 0", optarg);
+    return -1;
 }
 
 static int parse_variance(double *variance)
@@ -110,6 +148,16 @@ static int parse_option(int code, struct reduce_options *options)
     switch (code) {
     case HULL:
         options->hull = optarg;
+        return -1;
+    case GRID:
+        return parse_grid(options);
+    case MOMENTS:
+        options->moments = true;
+        return parse_count("moments", &options->moment_order, 0, 8);
+    case SHARE:
+        return parse_share(&options->moment_share);
+    case 'o':
+        options->output = optarg;
         return -1;
     case SHAPE:
         options->shape = optarg;
@@ -158,10 +206,10 @@ static int parse_option(int code, struct reduce_options *options)
 
 int reduce_parse(int argc, char **argv, struct reduce_options *options)
 {
-    *options = (struct reduce_options){.seed = 1};
+    *options = (struct reduce_options){.seed = 1, .moment_share = 0.5};
     galv_options_init(&options->build);
     opterr = 0;
-    for (int code; (code = getopt_long(argc, argv, "", table, NULL)) != -1;) {
+    for (int code; (code = getopt_long(argc, argv, "o:", table, NULL)) != -1;) {
         if (code == '?')
             return cli_usage("unknown or incomplete option '%s'", argv[optind - 1]);
         int result = parse_option(code, options);

@@ -1,4 +1,5 @@
 #include "cli.h"
+#include "model_file.h"
 #include "reduce.h"
 
 #include <jansson.h>
@@ -19,20 +20,6 @@ static json_t *number(double value)
     return isfinite(value) ? json_real(value) : json_null();
 }
 
-static const char *method_name(galv_method method)
-{
-    switch (method) {
-    case GALV_METHOD_COVARIANCE:
-        return "covariance";
-    case GALV_METHOD_GRAM:
-        return "gram";
-    case GALV_METHOD_RANDOMISED:
-        return "randomised";
-    default:
-        return "auto";
-    }
-}
-
 int reduce_print_json(const galv_model *model, const struct reduce_options *options, double seconds)
 {
     size_t spectrum = galv_model_spectrum(model), modes = galv_model_modes(model);
@@ -46,6 +33,7 @@ int reduce_print_json(const galv_model *model, const struct reduce_options *opti
     json_object_set_new(root, "parameters", json_integer((json_int_t)galv_model_parameters(model)));
     json_object_set_new(root, "modes", json_integer((json_int_t)modes));
     json_object_set_new(root, "retained", number(galv_model_retained(model)));
+    json_object_set_new(root, "retained_geometry", number(galv_model_retained_geometry(model)));
     json_object_set_new(root, "retained_error", number(confidence.retained_error));
     json_object_set_new(root, "subspace_angle", number(confidence.angle));
     json_object_set_new(root, "trace", number(galv_model_trace(model)));
@@ -67,7 +55,7 @@ int reduce_print_json(const galv_model *model, const struct reduce_options *opti
     return CLI_OK;
 }
 
-int reduce_print_text(const galv_model *model, double seconds)
+int reduce_print_text(const galv_model *model, const struct reduce_options *options, double seconds)
 {
     galv_confidence confidence = galv_model_confidence(model);
     printf("%zu samples of %zu parameters on %zu points, %zu of %zu coordinates move\n",
@@ -79,6 +67,9 @@ int reduce_print_text(const galv_model *model, double seconds)
         printf(" (standard error %.3f %%)\ngreatest angle to the modes of half the samples: %.2f "
                "degrees",
                100 * confidence.retained_error, confidence.angle * 180 / 3.14159265358979323846);
+    if (options->moments)
+        printf("\n%.3f %% of the variance of the points alone",
+               100 * galv_model_retained_geometry(model));
     printf("\n%4s %14s %12s %14s\n", "mode", "eigenvalue", "retained %", "mean sq. error");
     double sum = 0;
     for (size_t k = 0; k < galv_model_spectrum(model) && k < galv_model_modes(model) + 5; k++) {

@@ -1,0 +1,300 @@
+/* The galv command as its users meet it. */
+#include "check.h"
+#include "run_tool.h"
+
+#include <string.h>
+
+enum { SECTIONS = 13, GIRTH = 7 };
+
+static const char shape_text[] = "combination: recursive\n"
+                                 "direction: y\n"
+                                 "bounds: [-0.02, 0.02]\n"
+                                 "functions:\n"
+                                 "  - {order: [1, 1, 1], phase: [0, 0, 1.5707963267948966]}\n"
+                                 "  - {order: [2, 1, 1]}\n"
+                                 "  - {order: [1, 2, 1], bounds: [-0.01, 0.01]}\n"
+                                 "  - {order: [2, 2, 1], direction: y}\n";
+
+static void write_inputs(void)
+{
+    FILE *stream = fopen(scratch("hull.csv"), "w");
+    fputs("# a Wigley half hull\ni,j,x,y,z\n", stream);
+    for (int i = 0; i < SECTIONS; i++)
+        for (int j = 0; j < GIRTH; j++) {
+            double s = i / (SECTIONS - 1.0), t = j / (GIRTH - 1.0);
+            fprintf(stream, "%d,%d,%.17g,%.17g,%.17g\n", i + 1, j + 1, 6 * s,
+                    1.6 * s * (1 - s) * (1 - t * t), -0.3 * t);
+        }
+    fclose(stream);
+    scratch_write("shape.yaml", shape_text);
+}
+
+static const char *const reduce = "reduce --hull hull.csv --shape shape.yaml --random 500 --seed 3 "
+                                  "--variance 0.9999 -o model.h5 --json";
+
+static double number(json_t *root, const char *name)
+{
+    json_t *value = json_object_get(root, name);
+    CU_ASSERT_TRUE(json_is_number(value));
+    return json_number_value(value);
+}
+
+/* Exit code, and the words that must be on standard error. */
+static void expect(const char *arguments, int code, const char *words)
+{
+    struct run run = run_tool(arguments);
+    if (run.code != code || (words && !strstr(run.errors, words)))
+        fprintf(stderr, "galv %s: exit %d, said: %s\n", arguments, run.code, run.errors);
+    CU_ASSERT_EQUAL(run.code, code);
+    CU_ASSERT_TRUE(!words || strstr(run.errors, words));
+    CU_ASSERT_TRUE(code == 0 || *run.output == '\0');
+    run_free(&run);
+}
+
+static void test_reduce_prints_json(void)
+{
+    write_inputs();
+    json_t *root = run_json(reduce);
+    size_t modes = (size_t)number(root, "modes");
+    json_t *values = json_object_get(root, "eigenvalues"), *mse = json_object_get(root, "mse");
+    double sum = 0, trace = number(root, "trace");
+    CU_ASSERT_EQUAL(number(root, "samples"), 500);
+    CU_ASSERT_EQUAL(number(root, "elements"), SECTIONS * GIRTH);
+    CU_ASSERT_EQUAL(number(root, "parameters"), 4);
+    CU_ASSERT_EQUAL(json_array_size(values), json_array_size(mse));
+    CU_ASSERT_TRUE_FATAL(modes >= 1 && json_array_size(values) >= modes);
+    for (size_t k = 0; k < json_array_size(values); k++) {
+        sum += json_number_value(json_array_get(values, k));
+        CHECK_CLOSE(json_number_value(json_array_get(mse, k)), trace - sum, 1e-12 * trace);
+        if (k + 1 == modes)
+            CHECK_CLOSE(number(root, "retained"), sum / trace, 1e-12);
+    }
+    CU_ASSERT_TRUE(number(root, "retained") >= 0.9999);
+    json_decref(root);
+}
+
+/* The same run with samples from a file: uniform draws of a run printed by `project` stay the same.
+ */
+static void test_reduce_from_samples(void)
+{
+    write_inputs();
+    FILE *stream = fopen(scratch("x.csv"), "w");
+    fputs("x1,x2,x3,x4\n", stream);
+    for (int r = 0; r < 60; r++)
+        fprintf(stream, "%.17g,%.17g,%.17g,%.17g\n", 0.02 * sin(r), 0.02 * cos(2 * r),
+                0.01 * sin(3 * r + 1), 0.02 * sin(5 * r + 2));
+    fclose(stream);
+    json_t *root = run_json("reduce --hull hull.csv --shape shape.yaml --samples x.csv --modes 3 "
+                            "--centre --weights area --method gram --spectrum 5 --json");
+    CU_ASSERT_EQUAL(number(root, "samples"), 60);
+    CU_ASSERT_EQUAL(number(root, "modes"), 3);
+    CU_ASSERT_STRING_EQUAL(json_string_value(json_object_get(root, "method")), "gram");
+    json_decref(root);
+    scratch_write("short.csv", "x1,x2\n0,0\n");
+    expect("reduce --hull hull.csv --shape shape.yaml --samples short.csv", 1, "4 parameters");
+    scratch_write("nan.csv", "a,b,c,d\n0,0,0,0\n0,nan,0,0\n");
+    expect("reduce --hull hull.csv --shape shape.yaml --samples nan.csv", 1, "nan.csv:3");
+}
+
+static void test_model_round_trip(void)
+{
+    write_inputs();
+    json_t *reduced = run_json(reduce), *info = run_json("info model.h5 --json");
+    CHECK_CLOSE(number(info, "trace"), number(reduced, "trace"), 0);
+    CHECK_CLOSE(number(info, "retained"), number(reduced, "retained"), 0);
+    CU_ASSERT_TRUE(
+        json_equal(json_object_get(info, "eigenvalues"), json_object_get(reduced, "eigenvalues")));
+    CU_ASSERT_TRUE(json_equal(json_object_get(info, "latent_upper"),
+                              json_object_get(reduced, "latent_upper")));
+    json_decref(info);
+    json_decref(reduced);
+    expect("info model.h5", 0, NULL);
+}
+
+/* Parameters -> latent -> parameters, and latent -> hull -> latent. */
+static void test_there_and_back(void)
+{
+    write_inputs();
+    json_decref(run_json(reduce));
+    scratch_write("p.csv", "x1,x2,x3,x4\n0.01,-0.004,0.002,0.013\n");
+    json_t *projected = run_json("project model.h5 --parameters p.csv --json");
+    json_t *row = json_array_get(json_object_get(projected, "rows"), 0);
+    char u[256] = "", command[512];
+    for (int k = 1; k <= 20; k++) {
+        char name[8];
+        snprintf(name, sizeof name, "u%d", k);
+        json_t *value = json_object_get(row, name);
+        if (value)
+            snprintf(u + strlen(u), sizeof u - strlen(u), "%s%.17g", k > 1 ? "," : "",
+                     json_number_value(value));
+    }
+    CU_ASSERT_TRUE(number(row, "distance") < 1e-3);
+    snprintf(command, sizeof command, "backmap model.h5 --latent=%s --json", u);
+    json_t *mapped = run_json(command);
+    json_t *x = json_array_get(json_object_get(mapped, "rows"), 0);
+    const double expected[] = {0.01, -0.004, 0.002, 0.013};
+    for (int i = 0; i < 4; i++) {
+        char name[8];
+        snprintf(name, sizeof name, "x%d", i + 1);
+        CHECK_CLOSE(number(x, name), expected[i], 1e-3);
+    }
+    snprintf(command, sizeof command, "reconstruct model.h5 --latent=%s -o moved.csv", u);
+    expect(command, 0, NULL);
+    json_t *again = run_json("project model.h5 --hull moved.csv --json");
+    json_t *back = json_array_get(json_object_get(again, "rows"), 0);
+    CHECK_CLOSE(number(back, "u1"), number(row, "u1"), 1e-14);
+    CHECK_CLOSE(number(back, "distance"), 0, 1e-14);
+    json_decref(projected);
+    json_decref(mapped);
+    json_decref(again);
+}
+
+static void test_moments_and_lattice(void)
+{
+    write_inputs();
+    json_t *root = run_json("reduce --hull hull.csv --shape shape.yaml --random 300 --moments 1 "
+                            "--moment-share 0.2 -o moments.h5 --json");
+    CU_ASSERT_EQUAL(number(root, "coordinates"), 3 * SECTIONS * GIRTH + 4);
+    CU_ASSERT_TRUE(number(root, "retained_geometry") != number(root, "retained"));
+    json_decref(root);
+    scratch_write("p.csv", "0.01,0,0,0\n0.01,0,0,0\n");
+    root = run_json("project moments.h5 --parameters 0.01,0.002 --json");
+    json_decref(root);
+    scratch_write("lattice.yaml", "bounds: [-0.02, 0.02]\n"
+                                  "lattice:\n"
+                                  "  count: [5, 3, 3]\n"
+                                  "  first: [1, 1, 0]\n"
+                                  "  last: [3, 2, 2]\n"
+                                  "  directions: [y, z]\n");
+    root = run_json("reduce --hull hull.csv --shape lattice.yaml --random 300 -o l.h5 --json");
+    CU_ASSERT_EQUAL(number(root, "parameters"), 3 * 2 * 3 * 2);
+    CU_ASSERT_STRING_EQUAL(json_string_value(json_object_get(root, "method")), "factored");
+    json_decref(root);
+    root = run_json("backmap l.h5 --latent 0.01 --json");
+    CU_ASSERT_TRUE(number(json_array_get(json_object_get(root, "rows"), 0), "residual") < 1e-3);
+    json_decref(root);
+}
+
+static void expect_svg(const char *name, const char *holds)
+{
+    FILE *stream = fopen(scratch(name), "r");
+    CU_ASSERT_PTR_NOT_NULL_FATAL(stream);
+    static char text[4 << 20];
+    size_t length = fread(text, 1, sizeof text - 1, stream);
+    text[length] = '\0';
+    fclose(stream);
+    CU_ASSERT_PTR_NOT_NULL(strstr(text, "</svg>"));
+    CU_ASSERT_PTR_NOT_NULL(strstr(text, holds));
+    CU_ASSERT_PTR_NULL(strstr(text, "nan"));
+}
+
+static void test_drawings(void)
+{
+    write_inputs();
+    json_decref(run_json(reduce));
+    expect("plot model.h5 -o plot.svg --modes 2", 0, NULL);
+    expect_svg("plot.svg", "mode 2");
+    expect("animate model.h5 -o strip.svg --modes 2 --frames 3 --scale 2", 0, NULL);
+    expect_svg("strip.svg", "<animate");
+    expect("plot model.h5", 2, "-o");
+    expect("plot model.h5 -o no/such/folder/plot.svg", 1, "no/such/folder");
+}
+
+static void test_usage(void)
+{
+    write_inputs();
+    static const char *const commands[] = {"reduce",  "info", "project", "reconstruct",
+                                           "backmap", "plot", "animate"};
+    for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++) {
+        char arguments[64];
+        snprintf(arguments, sizeof arguments, "%s --help", commands[i]);
+        struct run run = run_tool(arguments);
+        CU_ASSERT_EQUAL(run.code, 0);
+        CU_ASSERT_PTR_NOT_NULL(strstr(run.output, commands[i]));
+        run_free(&run);
+        snprintf(arguments, sizeof arguments, "%s --nonsense", commands[i]);
+        expect(arguments, 2, "--nonsense");
+        expect(commands[i], 2, "");
+    }
+    expect("--help", 0, NULL);
+    expect("--version", 0, NULL);
+    expect("", 2, NULL);
+    expect("nothing", 2, "nothing");
+    expect("reduce --hull hull.csv --shape shape.yaml", 2, "--samples");
+    expect("reduce --hull hull.csv --shape shape.yaml --random 5 --samples x.csv", 2, "--samples");
+    expect("reduce --hull hull.csv --shape shape.yaml --random 0", 2, "--random");
+    expect("reduce --hull hull.csv --shape shape.yaml --random 5 --variance 1.01", 2, "--variance");
+    expect("reduce --hull hull.csv --shape shape.yaml --random 5 --method magic", 2, "magic");
+    expect("reduce --hull hull.csv --shape shape.yaml --random 5 --method factored", 1, "factored");
+    expect("reduce --hull none.csv --shape shape.yaml --random 5", 1, "none.csv");
+    expect("reduce --hull hull.csv --shape none.yaml --random 5", 1, "none.yaml");
+}
+
+static void test_bad_shapes_name_the_field(void)
+{
+    static const struct {
+        const char *text, *words;
+    } bad[] = {
+        {"bounds: [0, 1]\n", "functions or a lattice"},
+        {"bounds: [0, 1]\nfunctions:\n  - {order: [1, x, 1]}\n", "'x'"},
+        {"bounds: [0, 1]\nfunctions:\n  - {order: [1, 1]}\n", "order"},
+        {"functions:\n  - {order: [1, 1, 1]}\n", "bounds"},
+        {"bounds: [1, 0]\nfunctions:\n  - {order: [1, 1, 1]}\n", "parameter 0"},
+        {"bounds: [0, 1]\ndirection: w\nfunctions:\n  - {order: [1, 1, 1]}\n", "bad.yaml:2"},
+        {"bounds: [0, 1]\ncombination: odd\nfunctions:\n  - {order: [1, 1, 1]}\n", "odd"},
+        {"bounds: [0, 1]\ncolour: red\nfunctions:\n  - {order: [1, 1, 1]}\n", "colour"},
+        {"bounds: [0, 1]\nbox: {length: [0, 1, 1]}\nfunctions:\n  - {order: [1, 1, 1]}\n",
+         "length"},
+        {"bounds: [0, 1]\nlattice: {count: [3, 3, 3], first: [0, 0, 0], last: [3, 2, 2]}\n",
+         "along x"},
+        {"bounds: [0, 1]\nlattice: {count: [3, 3, 3], degree: [2, 5, 2], first: [0, 0, 0], "
+         "last: [2, 2, 2]}\n",
+         "along y"},
+    };
+    write_inputs();
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        scratch_write("bad.yaml", bad[i].text);
+        expect("reduce --hull hull.csv --shape bad.yaml --random 5", 1, bad[i].words);
+    }
+}
+
+/* Cut anywhere, a model file is refused with a sentence. */
+static void test_bad_models_are_refused(void)
+{
+    write_inputs();
+    json_decref(run_json(reduce));
+    FILE *stream = fopen(scratch("model.h5"), "rb");
+    CU_ASSERT_PTR_NOT_NULL_FATAL(stream);
+    static char bytes[4 << 20];
+    size_t length = fread(bytes, 1, sizeof bytes, stream);
+    fclose(stream);
+    CU_ASSERT_TRUE(length > 10000);
+    for (int cut = 0; cut < 8; cut++) {
+        stream = fopen(scratch("cut.h5"), "wb");
+        fwrite(bytes, 1, length * (size_t)cut / 8, stream);
+        fclose(stream);
+        expect("info cut.h5", 1, "cut.h5");
+    }
+    expect("info hull.csv", 1, "hull.csv");
+    expect("info none.h5", 1, "none.h5");
+    expect("backmap model.h5 --latent 1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17,18,19,20", 1,
+           "at most");
+    expect("project model.h5 --hull shape.yaml", 1, "shape.yaml");
+    scratch_write("few.csv", "x,y,z\n0,0,0\n");
+    expect("project model.h5 --hull few.csv", 1, "1 points");
+    scratch_remove_all();
+}
+
+static const struct check_case cases[] = {
+    {"reduce prints JSON that adds up", test_reduce_prints_json},
+    {"reduce from a file of samples", test_reduce_from_samples},
+    {"model files keep every bit", test_model_round_trip},
+    {"there and back", test_there_and_back},
+    {"moments and lattices", test_moments_and_lattice},
+    {"drawings", test_drawings},
+    {"usage", test_usage},
+    {"bad shapes name the field", test_bad_shapes_name_the_field},
+    {"bad models are refused", test_bad_models_are_refused},
+};
+
+CHECK_MAIN("galv tool", cases)

@@ -1,0 +1,104 @@
+#include "cli.h"
+#include "commands.h"
+#include "use.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+
+static const char help[] = "usage: galv info MODEL [--json]\n"
+                           "\n"
+                           "Says what a model file holds.\n";
+
+static json_t *array(size_t n, const double *values)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < n; i++)
+        json_array_append_new(list, json_real(values[i]));
+    return list;
+}
+
+static json_t *number(double value)
+{
+    return isfinite(value) ? json_real(value) : json_null();
+}
+
+static json_t *whole(size_t value)
+{
+    return json_integer((json_int_t)value);
+}
+
+static int print_json(const struct model_file *file)
+{
+    galv_model_data d = galv_model_view(file->model);
+    double radius;
+    if (galv_latent_ellipsoid(file->model, 0.95, &radius))
+        return cli_fail("%s", galv_last_error());
+    json_t *root = json_pack(
+        "{s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:b,s:s,s:s,s:s}",
+        "samples", whole(d.samples), "elements", whole(d.points), "coordinates",
+        whole(d.coordinates), "active", whole(d.active), "parameters", whole(d.parameters), "modes",
+        whole(d.modes), "retained", number(d.retained), "retained_geometry",
+        number(d.retained_geometry), "retained_error", number(d.confidence.retained_error),
+        "subspace_angle", number(d.confidence.angle), "trace", number(d.trace), "eigenvalues",
+        array(d.spectrum, d.eigenvalues), "mse", array(d.spectrum, d.mse), "latent_lower",
+        array(d.modes, d.lower), "latent_upper", array(d.modes, d.upper), "radius95",
+        number(radius), "sections", whole(file->sections), "centred", d.centred, "method",
+        method_name(d.method), "hull", file->hull, "shape",
+        file->shape.kind == SHAPE_SINES ? "sines" : "lattice");
+    if (!root)
+        return cli_fail("out of memory");
+    int failed = json_dumpf(root, stdout, JSON_REAL_PRECISION(17) | JSON_INDENT(1));
+    json_decref(root);
+    if (failed || putchar('\n') == EOF || fflush(stdout) == EOF)
+        return cli_fail("standard output cannot be written");
+    return CLI_OK;
+}
+
+static int print_text(const struct model_file *file)
+{
+    galv_model_data d = galv_model_view(file->model);
+    double lower95[64], upper95[64], radius;
+    bool quantiles = d.modes <= 64 && !galv_latent_bounds(file->model, 0.95, lower95, upper95);
+    printf("%s: %zu points", file->hull, d.points);
+    if (file->girth)
+        printf(" (%zu x %zu)", file->sections, file->girth);
+    printf(", %zu %s parameters of %s\n", d.parameters,
+           file->shape.combination == GALV_RECURSIVE && file->shape.kind == SHAPE_SINES
+               ? "recursive"
+               : "linear",
+           file->shape.kind == SHAPE_SINES ? "sine products" : "a lattice");
+    printf("%zu samples", d.samples);
+    if (file->uniform)
+        printf(" (uniform, seed %zu)", file->seed);
+    printf("%s, %s method\n", d.centred ? ", centred" : "", method_name(d.method));
+    printf("%zu modes retain %.3f %% of %.6g m^2", d.modes, 100 * d.retained, d.trace);
+    if (file->moments)
+        printf(" with moments up to order %zu, %.3f %% of the points' variance", file->moment_order,
+               100 * d.retained_geometry);
+    if (!galv_latent_ellipsoid(file->model, 0.95, &radius))
+        printf("\n95 %% of the samples lie within %.3f standard deviations", radius);
+    printf("\n%4s %13s %11s %13s %13s %13s %13s\n", "mode", "eigenvalue", "retained %", "lower",
+           "upper", "lower 95 %", "upper 95 %");
+    double sum = 0;
+    for (size_t k = 0; k < d.modes; k++) {
+        sum += d.eigenvalues[k];
+        printf("%4zu %13.5e %11.4f %13.5e %13.5e", k + 1, d.eigenvalues[k], 100 * sum / d.trace,
+               d.lower[k], d.upper[k]);
+        if (quantiles)
+            printf(" %13.5e %13.5e", lower95[k], upper95[k]);
+        putchar('\n');
+    }
+    return fflush(stdout) == EOF ? cli_fail("standard output cannot be written") : CLI_OK;
+}
+
+int command_info(int argc, char **argv)
+{
+    struct use use;
+    int result = use_start(argc, argv, help, 0, &use);
+    if (result != -1)
+        return result;
+    result = use.json ? print_json(&use.file) : print_text(&use.file);
+    use_free(&use);
+    return result;
+}
