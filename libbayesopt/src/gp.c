@@ -5,8 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <cblas.h>
-
 #include "error.h"
 #include "kernel.h"
 #include "matrix.h"
@@ -238,9 +236,9 @@ void gp_covariance(const struct bayesopt_gp *gp, double signal, double *k, doubl
         double *row = k + i * gp->capacity, *slope = w ? w + i * gp->capacity : NULL;
         kernel_distances(i + 1, gp->d, gp->scaled, gp->capacity, point, row);
         kernel_values(gp->options.kernel, i + 1, row, row, slope);
-        cblas_dscal((int)i + 1, signal, row, 1);
+        matrix_scale(i + 1, signal, row);
         if (slope)
-            cblas_dscal((int)i + 1, signal, slope, 1);
+            matrix_scale(i + 1, signal, slope);
     }
 }
 
@@ -259,9 +257,13 @@ static bool condition_mean(struct bayesopt_gp *gp)
     double logs = 0;
     for (size_t i = 0; i < n; i++)
         logs += log(gp->factor[i * ld + i]);
+    double *rows = gp->basis; /* [n x p] until K^-1 H takes its place */
     for (size_t i = 0; i < n; i++)
-        gp_basis_row(gp, gp->x + i * gp->d, gp->solved + i * p);
-    matrix_solve_lower(n, gp->factor, ld, p, gp->solved, p);
+        gp_basis_row(gp, gp->x + i * gp->d, rows + i * p);
+    matrix_solve_lower(n, gp->factor, ld, p, rows, p);
+    for (size_t i = 0; i < n; i++)
+        for (size_t c = 0; c < p; c++)
+            gp->solved[c * ld + i] = rows[i * p + c];
 
     double *residual = gp->alpha;
     double constant = p ? 0 : gp->fixed_mean;
@@ -270,39 +272,29 @@ static bool condition_mean(struct bayesopt_gp *gp)
     matrix_forward(n, gp->factor, ld, residual);
     if (p) {
         for (size_t a = 0; a < p; a++) {
-            gp->beta[a] = cblas_ddot((int)n, gp->solved + a, (int)p, residual, 1);
+            gp->beta[a] = matrix_dot(n, gp->solved + a * ld, residual);
             for (size_t b = 0; b <= a; b++)
-                gp->gram[a * p + b] =
-                    cblas_ddot((int)n, gp->solved + a, (int)p, gp->solved + b, (int)p);
+                gp->gram[a * p + b] = matrix_dot(n, gp->solved + a * ld, gp->solved + b * ld);
         }
         if (!matrix_cholesky(p, gp->gram, p))
             return false;
         matrix_forward(p, gp->gram, p, gp->beta);
         matrix_backward(p, gp->gram, p, gp->beta);
-        for (size_t i = 0; i < n; i++)
-            residual[i] -= cblas_ddot((int)p, gp->solved + i * p, 1, gp->beta, 1);
+        for (size_t c = 0; c < p; c++)
+            matrix_axpy(n, -gp->beta[c], gp->solved + c * ld, residual);
     }
     gp->log_likelihood =
-        -0.5 * cblas_ddot((int)n, residual, 1, residual, 1) - logs - 0.5 * (double)n * log_2pi;
+        -0.5 * matrix_dot(n, residual, residual) - logs - 0.5 * (double)n * log_2pi;
     matrix_backward(n, gp->factor, ld, residual);
     return isfinite(gp->log_likelihood);
 }
 
 /* K^-1 H, needed by gradients of the posterior. */
-static bool condition_basis(struct bayesopt_gp *gp)
+static void condition_basis(struct bayesopt_gp *gp)
 {
-    double *column = gp->p ? malloc(gp->n * sizeof *column) : NULL;
-    if (gp->p && !column)
-        return false;
-    for (size_t c = 0; c < gp->p; c++) {
-        for (size_t i = 0; i < gp->n; i++)
-            column[i] = gp->solved[i * gp->p + c];
-        matrix_backward(gp->n, gp->factor, gp->capacity, column);
-        for (size_t i = 0; i < gp->n; i++)
-            gp->basis[i * gp->p + c] = column[i];
-    }
-    free(column);
-    return true;
+    memcpy(gp->basis, gp->solved, gp->p * gp->capacity * sizeof *gp->basis);
+    for (size_t c = 0; c < gp->p; c++)
+        matrix_backward(gp->n, gp->factor, gp->capacity, gp->basis + c * gp->capacity);
 }
 
 static void choose_basis(struct bayesopt_gp *gp)
@@ -347,8 +339,9 @@ bool gp_condition(struct bayesopt_gp *gp)
         if (!condition_mean(gp))
             return false;
     }
-    gp->conditioned = condition_basis(gp);
-    return gp->conditioned;
+    condition_basis(gp);
+    gp->conditioned = true;
+    return true;
 }
 
 bool gp_scratch_create(struct gp_scratch *scratch, size_t capacity)
@@ -449,10 +442,10 @@ static bool append_row(bayesopt_gp *gp, size_t i)
         point[j] = gp->scaled[j * ld + i] = gp->x[i * gp->d + j] / gp->lengthscale[j];
     kernel_distances(i, gp->d, gp->scaled, ld, point, row);
     kernel_values(gp->options.kernel, i, row, row, NULL);
-    cblas_dscal((int)i, gp->signal, row, 1);
+    matrix_scale(i, gp->signal, row);
     matrix_forward(i, gp->factor, ld, row);
     double diagonal = gp->signal + gp_noise(gp, i, gp->noise) + gp->jitter;
-    double pivot = diagonal - cblas_ddot((int)i, row, 1, row, 1);
+    double pivot = diagonal - matrix_dot(i, row, row);
     row[i] = sqrt(fmax(pivot, 0));
     return pivot > 1e-10 * diagonal;
 }
@@ -475,7 +468,11 @@ bayesopt_status bayesopt_gp_append(bayesopt_gp *gp, size_t n, const double *x, c
         ok = append_row(gp, i);
     }
     gp->n += n;
-    ok = (ok && condition_mean(gp) && condition_basis(gp)) || gp_condition(gp);
+    ok = ok && condition_mean(gp);
+    if (ok)
+        condition_basis(gp);
+    else
+        ok = gp_condition(gp);
     return ok ? BAYESOPT_OK
               : bayesopt_fail(BAYESOPT_ERROR_NUMERIC,
                               "gp: the covariance of %zu points is not positive definite with a "

@@ -11,18 +11,20 @@
 
 static const double log_2pi = 1.8378770664093454836;
 
-/* Variance added to every output of deterministic data, in standardised squared units: it bounds
- * the condition number of K by about n 1e8. */
-static const double deterministic_noise = 1e-8;
+/* Ranges of the search: length scales in units of the box, variances of standardised outputs. Long
+ * scales with a large signal are wanted: there a Matern 5/2 process tends to a spline on top of a
+ * quadratic polynomial, which is what smooth functions look like. */
+static const double scale_range[2] = {0.01, 100};
+static const double signal_range[2] = {0.02, 1e6};
+static const double signal_deviation = 3; /* log sf2 ~ N(0, 3^2) */
 
-/* Ranges of the search: length scales in units of the box, variances of standardised outputs. */
-static const double scale_range[2] = {0.01, 50};
-static const double signal_range[2] = {0.02, 1e4};
-static const double noise_range[2] = {1e-8, 0.5};
-
-/* Priors: log sf2 ~ N(0, 1.5^2), log sn2 ~ N(-4, 2^2) (learned noise). */
-static const double signal_deviation = 1.5;
-static const double noise_centre = -4, noise_deviation = 2;
+/* log sn2 ~ N(centre, deviation^2). Deterministic data get a noise too, small enough to interpolate
+ * and learnt, because simulations have a numerical one. */
+struct noise_prior {
+    double centre, deviation, least, most;
+};
+static const struct noise_prior learned_noise = {-4, 2, 1e-8, 0.5};
+static const struct noise_prior guard_noise = {-25, 2, 1e-12, 1e-6};
 
 enum { MOST_PARAMETERS = 1002 };
 
@@ -35,6 +37,7 @@ struct model {
 struct fit {
     bayesopt_gp *gp;
     struct model model;
+    const struct noise_prior *noise;
     size_t groups, parameters; /* log l per group, log sf2, log sn2 if learned */
     const size_t *group;       /* [d] */
     struct gp_scratch scratch;
@@ -50,8 +53,7 @@ static void unpack(const struct fit *fit, const double *theta, struct gp_theta *
         fit->lengthscale[j] = exp(theta[fit->group[j]]);
     out->lengthscale = fit->lengthscale;
     out->signal = exp(theta[fit->groups]);
-    out->noise =
-        fit->parameters > fit->groups + 1 ? exp(theta[fit->groups + 1]) : deterministic_noise;
+    out->noise = fit->parameters > fit->groups + 1 ? exp(theta[fit->groups + 1]) : 0;
 }
 
 /* log prior density of theta and its gradient (added). The precision of common + own deviations is
@@ -77,10 +79,10 @@ static double log_prior(const struct fit *fit, const double *theta, double *grad
     if (gradient)
         gradient[groups] -= u / signal_deviation;
     if (fit->parameters > groups + 1) {
-        u = (theta[groups + 1] - noise_centre) / noise_deviation;
-        value -= 0.5 * (u * u + log_2pi) + log(noise_deviation);
+        u = (theta[groups + 1] - fit->noise->centre) / fit->noise->deviation;
+        value -= 0.5 * (u * u + log_2pi) + log(fit->noise->deviation);
         if (gradient)
-            gradient[groups + 1] -= u / noise_deviation;
+            gradient[groups + 1] -= u / fit->noise->deviation;
     }
     return value;
 }
@@ -134,8 +136,8 @@ static bayesopt_status climb(struct fit *fit, const double *start, size_t evalua
     low[fit->groups] = log(signal_range[0]);
     high[fit->groups] = log(signal_range[1]);
     if (fit->parameters > fit->groups + 1) {
-        low[fit->groups + 1] = log(noise_range[0]);
-        high[fit->groups + 1] = log(noise_range[1]);
+        low[fit->groups + 1] = log(fit->noise->least);
+        high[fit->groups + 1] = log(fit->noise->most);
     }
     nlopt_opt search = nlopt_create(NLOPT_LD_LBFGS, k);
     if (!search)
@@ -167,7 +169,8 @@ static bayesopt_status fit_create(struct fit *fit, bayesopt_gp *gp, struct model
             groups = gp->group[j] + 1 > groups ? gp->group[j] + 1 : groups;
     }
     fit->groups = groups;
-    fit->parameters = groups + 1 + (gp->options.noise == BAYESOPT_NOISE_LEARNED);
+    fit->noise = gp->options.noise == BAYESOPT_NOISE_LEARNED ? &learned_noise : &guard_noise;
+    fit->parameters = groups + 1 + (gp->options.noise != BAYESOPT_NOISE_KNOWN);
     fit->lengthscale = malloc((4 * gp->d + 8) * sizeof(double));
     bool ok = gp_scratch_create(&fit->scratch, gp->capacity);
     if (!fit->lengthscale || !ok) {
@@ -202,24 +205,25 @@ static void pack(const struct fit *fit, double *theta)
     }
     theta[fit->groups] = log(gp->signal);
     if (fit->parameters > fit->groups + 1)
-        theta[fit->groups + 1] = log(fmax(gp->noise, noise_range[0]));
+        theta[fit->groups + 1] = log(fmax(gp->noise, fit->noise->least));
 }
 
-/* The first start is 0.75 sqrt(d), others are drawn from the prior; short scales, where the
- * gradient vanishes, are avoided. */
-static void draw_start(const struct fit *fit, size_t index, double *theta)
+/* Start s in the coordinates of a fit. The likelihood has a mode of short scales (little is known
+ * between the data) and one of long scales (a polynomial and little more), so the first two starts
+ * are one in each; later ones are drawn around the first. */
+static void make_start(const struct fit *fit, size_t s, double *theta)
 {
     struct random_stream stream;
-    random_start(&stream, fit->gp->options.seed, STREAM_FIT, index);
+    random_start(&stream, fit->gp->options.seed, STREAM_FIT, s);
     double centre = 0.5 * log((double)fit->gp->d) + fit->gp->options.prior_shift;
-    double common = index ? 0.7 * random_normal(&stream) : log(0.75);
+    double common = s == 0 ? log(0.75) : s == 1 ? log(4) : 0.7 * random_normal(&stream);
     for (size_t g = 0; g < fit->groups; g++) {
-        double own = index ? sqrt(fit->model.variance) * random_normal(&stream) : 0;
+        double own = s > 1 ? sqrt(fit->model.variance) * random_normal(&stream) : 0;
         theta[g] = fmax(centre + common + own, log(0.1));
     }
-    theta[fit->groups] = index ? 0.5 * random_normal(&stream) : 0;
+    theta[fit->groups] = s == 1 ? log(300) : s ? 0.5 * random_normal(&stream) : 0;
     if (fit->parameters > fit->groups + 1)
-        theta[fit->groups + 1] = index ? noise_centre + random_normal(&stream) : noise_centre;
+        theta[fit->groups + 1] = fit->noise->centre + (s > 1 ? random_normal(&stream) : 0);
 }
 
 static void adopt(struct fit *fit)
@@ -273,17 +277,21 @@ static double log_evidence(struct fit *fit)
     return ok ? best + 0.5 * ((double)k * log_2pi - logs) : best;
 }
 
-/* Leave-one-out log predictive density, Rasmussen and Williams eq. 5.10. */
-static double loo_density(bayesopt_gp *gp)
+/* Leave-one-out log predictive density, Rasmussen and Williams eq. 5.10, and the mean square of the
+ * errors. */
+static double loo_density(bayesopt_gp *gp, double *square)
 {
     double *mean = malloc(2 * gp->n * sizeof *mean), sum = 0;
-    if (!mean || bayesopt_gp_loo(gp, mean, mean + gp->n)) {
+    *square = INFINITY;
+    if (!mean || !gp_condition(gp) || bayesopt_gp_loo(gp, mean, mean + gp->n)) {
         free(mean);
         return -INFINITY;
     }
+    *square = 0;
     for (size_t i = 0; i < gp->n; i++) {
         double var = mean[gp->n + i], error = gp->t[i] - mean[i];
         sum -= 0.5 * (log(var) + error * error / var + log_2pi);
+        *square += error * error / (double)gp->n;
     }
     free(mean);
     return sum;
@@ -307,57 +315,92 @@ static size_t list_models(const bayesopt_gp *gp, struct model *models)
     return count;
 }
 
-static void remodel(bayesopt_gp *gp)
+static bayesopt_status set_transform(bayesopt_gp *gp, bayesopt_transform kind)
 {
+    if (!transform_estimate(&gp->transform, kind, gp->n, gp->y))
+        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "gp: out of memory");
     for (size_t i = 0; i < gp->n; i++)
         gp->t[i] = transform_apply(&gp->transform, gp->y[i]);
+    return BAYESOPT_OK;
 }
 
-/* Log likelihood of the untransformed data with the scale of the outputs profiled out:
- * the best signal variance is factor sf2 with factor = r'K^-1 r/n. */
-static double profiled_likelihood(bayesopt_gp *gp, const struct gp_theta *theta)
+/* log of the density of the caller's outputs over that of the modelled ones. */
+static double log_jacobian(const bayesopt_gp *gp)
 {
-    double value, residual = 0, n = (double)gp->n, jacobian = 0;
-    remodel(gp);
-    if (!gp_likelihood(gp, theta, NULL, &value, NULL))
-        return -INFINITY;
-    for (size_t i = 0; i < gp->n; i++) {
-        residual += gp->alpha[i] * (gp->t[i] - (gp->p ? gp->beta[0] : gp->fixed_mean));
-        jacobian += log(transform_slope(&gp->transform, gp->y[i]));
-    }
-    return value + 0.5 * residual - 0.5 * n * (1 + log(residual / n)) + jacobian;
+    double sum = 0;
+    for (size_t i = 0; i < gp->n; i++)
+        sum += log(transform_slope(&gp->transform, gp->y[i]));
+    return sum;
 }
 
-/* The transform that makes the data most likely under the present correlations, if it gains more
- * than 2 over leaving them alone. */
-static bayesopt_status choose_transform(bayesopt_gp *gp)
+/* One length scale, all starts; adopts the best. */
+static bayesopt_status fit_isotropic(bayesopt_gp *gp, const size_t *isotropic_groups,
+                                     double *posterior)
+{
+    struct fit fit;
+    double theta[3];
+    bayesopt_status status = fit_create(&fit, gp, (struct model){true, 0.1}, isotropic_groups);
+    if (status)
+        return status;
+    for (size_t s = 0; s < gp->options.starts && !status; s++) {
+        make_start(&fit, s, theta);
+        status = climb(&fit, theta, gp->options.evaluations / 2 + 1);
+    }
+    *posterior = fit.best_value;
+    if (!status && isfinite(fit.best_value))
+        adopt(&fit);
+    gp->evaluations += fit.evaluations;
+    fit_free(&fit);
+    return status;
+}
+
+/* Fits one length scale under a transform. value: log posterior of the caller's outputs; square:
+ * leave-one-out error as a share of the variance. */
+static bayesopt_status try_transform(bayesopt_gp *gp, bayesopt_transform kind,
+                                     const size_t *isotropic_groups, double *value, double *square)
+{
+    bayesopt_status status = set_transform(gp, kind);
+    if (!status)
+        status = fit_isotropic(gp, isotropic_groups, value);
+    if (status)
+        return status;
+    *value += log_jacobian(gp);
+    loo_density(gp, square);
+    return BAYESOPT_OK;
+}
+
+/* The transform under which the data are most likely, if it gains more than 2 over leaving them
+ * alone and predicts better too: a transform can make outputs look normal and yet hide the
+ * structure (a quadratic, say) by which they are predicted. Judged with one length scale. Ranks and
+ * winsorising have no density to compare. */
+static bayesopt_status choose_transform(bayesopt_gp *gp, const size_t *isotropic_groups)
 {
     static const bayesopt_transform kinds[] = {BAYESOPT_TRANSFORM_LOG,
                                                BAYESOPT_TRANSFORM_YEO_JOHNSON};
-    struct gp_theta theta = {gp->lengthscale, gp->signal, gp->noise};
     bayesopt_transform best = BAYESOPT_TRANSFORM_NONE;
-    bool ok = transform_estimate(&gp->transform, best, gp->n, gp->y);
-    double most = profiled_likelihood(gp, &theta) + 2;
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds && ok; i++) {
-        ok = transform_estimate(&gp->transform, kinds[i], gp->n, gp->y);
-        double value = profiled_likelihood(gp, &theta);
-        if (value > most) {
+    double value, square, least;
+    bayesopt_status status = try_transform(gp, best, isotropic_groups, &value, &least);
+    if (status)
+        return status;
+    double most = value + 2, scale = gp->lengthscale[0];
+    struct bayesopt_gp kept = *gp;
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds && !status && gp->n > 4; i++) {
+        status = try_transform(gp, kinds[i], isotropic_groups, &value, &square);
+        if (!status && value > most && square < least) {
             most = value;
             best = kinds[i];
+            kept = *gp;
+            scale = gp->lengthscale[0];
         }
     }
-    ok = ok && transform_estimate(&gp->transform, best, gp->n, gp->y);
-    remodel(gp);
-    return ok ? BAYESOPT_OK : bayesopt_fail(BAYESOPT_ERROR_MEMORY, "gp: out of memory");
-}
-
-static bayesopt_status estimate_transform(bayesopt_gp *gp)
-{
-    if (gp->options.transform == BAYESOPT_TRANSFORM_AUTO && gp->has_parameters && gp->n > 4)
-        return choose_transform(gp);
-    bool ok = transform_estimate(&gp->transform, gp->options.transform, gp->n, gp->y);
-    remodel(gp);
-    return ok ? BAYESOPT_OK : bayesopt_fail(BAYESOPT_ERROR_MEMORY, "gp: out of memory");
+    if (!status)
+        status = set_transform(gp, best);
+    for (size_t j = 0; j < gp->d; j++)
+        gp->lengthscale[j] = scale;
+    gp->signal = kept.signal;
+    gp->noise = kept.noise;
+    gp->log_posterior = kept.log_posterior;
+    return status;
 }
 
 static bayesopt_status fit_warm(bayesopt_gp *gp, const size_t *isotropic_groups)
@@ -380,19 +423,17 @@ static bayesopt_status fit_warm(bayesopt_gp *gp, const size_t *isotropic_groups)
     return status;
 }
 
+/* One of the models compared, from the isotropic optimum the regression holds at present. */
 static bayesopt_status fit_model(bayesopt_gp *gp, struct model model,
                                  const size_t *isotropic_groups, bool compare, double *score)
 {
     struct fit fit;
-    double theta[MOST_PARAMETERS];
+    double theta[MOST_PARAMETERS], square;
     bayesopt_status status = fit_create(&fit, gp, model, isotropic_groups);
     if (status)
         return status;
-    size_t starts = model.isotropic ? 2 : gp->options.starts;
-    for (size_t s = 0; s < starts && !status; s++) {
-        draw_start(&fit, s, theta);
-        status = climb(&fit, theta, gp->options.evaluations);
-    }
+    pack(&fit, theta);
+    status = climb(&fit, theta, gp->options.evaluations);
     *score = -INFINITY;
     if (!status && isfinite(fit.best_value)) {
         *score = fit.best_value;
@@ -400,41 +441,61 @@ static bayesopt_status fit_model(bayesopt_gp *gp, struct model model,
             *score = log_evidence(&fit);
         adopt(&fit);
         if (compare && gp->options.choice == BAYESOPT_CHOICE_LOO)
-            *score = gp_condition(gp) ? loo_density(gp) : -INFINITY;
+            *score = loo_density(gp, &square);
     }
     gp->evaluations += fit.evaluations;
     fit_free(&fit);
     return status;
 }
 
-static bayesopt_status fit_cold(bayesopt_gp *gp, const size_t *isotropic_groups)
+/* Scalars and length scales of a regression, to return to. */
+static void copy_parameters(const bayesopt_gp *from, const double *lengthscale, bayesopt_gp *to)
+{
+    memcpy(to->lengthscale, lengthscale, to->d * sizeof *lengthscale);
+    to->signal = from->signal;
+    to->noise = from->noise;
+    to->isotropic = from->isotropic;
+    to->wide = from->wide;
+    to->log_posterior = from->log_posterior;
+}
+
+static bayesopt_status compare_models(bayesopt_gp *gp, const size_t *isotropic_groups)
 {
     struct model models[3];
-    size_t count = list_models(gp, models);
+    size_t count = list_models(gp, models), d = gp->d;
     double most = -INFINITY, score;
-    bayesopt_status status = BAYESOPT_OK;
-    struct bayesopt_gp kept = *gp;
-    double *lengthscale = malloc(gp->d * sizeof *lengthscale);
-    if (!lengthscale)
+    struct bayesopt_gp start = *gp, best = *gp;
+    double *scales = malloc(2 * d * sizeof *scales);
+    if (!scales)
         return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "gp: out of memory");
-    gp->evaluations = 0;
+    memcpy(scales, gp->lengthscale, d * sizeof *scales);
+    memcpy(scales + d, gp->lengthscale, d * sizeof *scales);
+    bayesopt_status status = BAYESOPT_OK;
     for (size_t m = 0; m < count && !status; m++) {
+        copy_parameters(&start, scales, gp);
         status = fit_model(gp, models[m], isotropic_groups, count > 1, &score);
         if (!status && score > most) {
             most = score;
-            kept = *gp;
-            memcpy(lengthscale, gp->lengthscale, gp->d * sizeof *lengthscale);
+            best = *gp;
+            memcpy(scales + d, gp->lengthscale, d * sizeof *scales);
         }
     }
-    if (!status && isfinite(most)) {
-        memcpy(gp->lengthscale, lengthscale, gp->d * sizeof *lengthscale);
-        gp->signal = kept.signal;
-        gp->noise = kept.noise;
-        gp->isotropic = kept.isotropic;
-        gp->wide = kept.wide;
-        gp->log_posterior = kept.log_posterior;
-    }
-    free(lengthscale);
+    copy_parameters(&best, scales + d, gp);
+    free(scales);
+    return status;
+}
+
+static bayesopt_status fit_cold(bayesopt_gp *gp, const size_t *isotropic_groups)
+{
+    double posterior;
+    bayesopt_status status;
+    gp->evaluations = 0;
+    if (gp->options.transform == BAYESOPT_TRANSFORM_AUTO)
+        status = choose_transform(gp, isotropic_groups);
+    else
+        status = fit_isotropic(gp, isotropic_groups, &posterior);
+    if (!status && gp->has_parameters)
+        status = compare_models(gp, isotropic_groups);
     return status;
 }
 
@@ -458,16 +519,13 @@ bayesopt_status bayesopt_gp_fit(bayesopt_gp *gp)
     if (gp->options.scales != BAYESOPT_SCALES_TIED)
         for (size_t j = 0; j < gp->d; j++)
             gp->group[j] = j;
-    bool cold = !gp->has_parameters;
-    bayesopt_status status = estimate_transform(gp);
+    bayesopt_transform kind = gp->options.transform;
+    if (kind == BAYESOPT_TRANSFORM_AUTO) /* a warm fit keeps the kind, not its numbers */
+        kind = gp->has_parameters ? gp->transform.kind : BAYESOPT_TRANSFORM_NONE;
+    bayesopt_status status = set_transform(gp, kind);
     if (!status)
-        status = cold ? fit_cold(gp, isotropic_groups) : fit_warm(gp, isotropic_groups);
-    if (!status && cold && gp->options.transform == BAYESOPT_TRANSFORM_AUTO && gp->has_parameters &&
-        gp->n > 4) {
-        status = choose_transform(gp);
-        if (!status && gp->transform.kind != BAYESOPT_TRANSFORM_NONE)
-            status = fit_warm(gp, isotropic_groups);
-    }
+        status =
+            gp->has_parameters ? fit_warm(gp, isotropic_groups) : fit_cold(gp, isotropic_groups);
     free(isotropic_groups);
     if (status)
         return status;

@@ -29,8 +29,8 @@ struct bayesopt_gp {
     double *t;      /* [n] modelled outputs */
     double *factor; /* [capacity x capacity] L of K = L L' */
     double *alpha;  /* [n] K^-1 (t - H beta) */
-    double *solved; /* [capacity x (d + 1)] L^-1 H, row length p */
-    double *basis;  /* [capacity x (d + 1)] K^-1 H, row length p */
+    double *solved; /* [p x capacity] L^-1 H, column by column */
+    double *basis;  /* [p x capacity] K^-1 H */
     double *gram;   /* [p x p] Cholesky factor of H' K^-1 H */
     double *beta;   /* [p] */
     double jitter;  /* absolute */

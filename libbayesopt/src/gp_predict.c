@@ -3,8 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <cblas.h>
-
 #include "error.h"
 #include "gp_internal.h"
 #include "kernel.h"
@@ -24,7 +22,7 @@ static bayesopt_status need(const bayesopt_gp *gp, const char *what)
 static double mean_variance(const bayesopt_gp *gp, double *r)
 {
     matrix_forward(gp->p, gp->gram, gp->p, r);
-    double variance = cblas_ddot((int)gp->p, r, 1, r, 1);
+    double variance = matrix_dot(gp->p, r, r);
     matrix_backward(gp->p, gp->gram, gp->p, r);
     return variance;
 }
@@ -54,8 +52,8 @@ static void predict_block(const bayesopt_gp *gp, size_t m, const double *x, doub
             point[j] = gp->scaled[j * gp->capacity + i];
         kernel_distances(m, d, columns, BLOCK, point, row);
         kernel_values(gp->options.kernel, m, row, row, NULL);
-        cblas_dscal((int)m, gp->signal, row, 1);
-        cblas_daxpy((int)m, gp->alpha[i], row, 1, mean, 1);
+        matrix_scale(m, gp->signal, row);
+        matrix_axpy(m, gp->alpha[i], row, mean);
     }
     if (!var)
         return;
@@ -68,7 +66,7 @@ static void predict_block(const bayesopt_gp *gp, size_t m, const double *x, doub
         for (size_t c = 0; c < m; c++)
             var[c] -= row[c] * row[c];
         for (size_t b = 0; b < p; b++)
-            cblas_daxpy((int)m, -gp->solved[i * p + b], row, 1, rest + b * BLOCK, 1);
+            matrix_axpy(m, -gp->solved[b * gp->capacity + i], row, rest + b * BLOCK);
     }
     for (size_t c = 0; c < m; c++) {
         gp_basis_row(gp, x + c * d, r);
@@ -107,19 +105,19 @@ bayesopt_status bayesopt_gp_predict_gradient(const bayesopt_gp *gp, const double
         point[j] = x[j] / gp->lengthscale[j];
     kernel_distances(n, d, gp->scaled, ld, point, k);
     kernel_values(gp->options.kernel, n, k, k, w);
-    cblas_dscal((int)n, gp->signal, k, 1);
-    cblas_dscal((int)n, gp->signal, w, 1);
-    *mean = prior_mean(gp, x) + cblas_ddot((int)n, k, 1, gp->alpha, 1);
+    matrix_scale(n, gp->signal, k);
+    matrix_scale(n, gp->signal, w);
+    *mean = prior_mean(gp, x) + matrix_dot(n, k, gp->alpha);
     gp_basis_row(gp, x, r);
     matrix_forward(n, gp->factor, ld, k);
-    *var = fmax(gp->signal - cblas_ddot((int)n, k, 1, k, 1), 0);
+    *var = fmax(gp->signal - matrix_dot(n, k, k), 0);
     for (size_t b = 0; b < p; b++)
-        r[b] -= cblas_ddot((int)n, gp->solved + b, (int)p, k, 1);
+        r[b] -= matrix_dot(n, gp->solved + b * ld, k);
     *var += mean_variance(gp, r);
     matrix_backward(n, gp->factor, ld, k);
     /* d var = -2 k'K^-1 dk - 2 (K^-1 H g)' dk + 2 g' dh with g = (H'K^-1 H)^-1 r */
     for (size_t b = 0; b < p; b++)
-        cblas_daxpy((int)n, r[b], gp->basis + b, (int)p, k, 1);
+        matrix_axpy(n, r[b], gp->basis + b * ld, k);
     for (size_t j = 0; j < d; j++) {
         const double *column = gp->scaled + j * ld;
         double slope = 0, spread = 0;

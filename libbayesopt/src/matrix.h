@@ -1,13 +1,19 @@
-/* Dense factorisation and solves, row-major, lower triangles.
+/* Dense factorisation and solves for matrices of a few hundred to a few thousand rows, row-major,
+ * lower triangles.
  *
- * Work is cut into 64 x 64 tiles whose products OpenBLAS computes in the calling thread whatever
- * its thread setting, so results do not depend on that setting and concurrent callers do not
- * oversubscribe the machine. */
+ * All in the calling thread: results are the same whatever thread setting a BLAS has, and callers
+ * that run side by side do not oversubscribe the machine. Work is done on 64 x 64 tiles that stay
+ * in the first-level caches, the products in register blocks. */
 #ifndef BAYESOPT_MATRIX_H
 #define BAYESOPT_MATRIX_H
 
 #include <stdbool.h>
 #include <stddef.h>
+
+/* sum x[i] y[i]; y += a x; x *= a, over n entries. */
+double matrix_dot(size_t n, const double *x, const double *y);
+void matrix_axpy(size_t n, double a, const double *x, double *y);
+void matrix_scale(size_t n, double a, double *x);
 
 /* A = L L' in place (lower triangle of n x n, row length ld); the strict upper triangle is neither
  * read nor written. false: not positive definite, A is spoilt. O(n^3/3). */
@@ -23,9 +29,5 @@ void matrix_backward(size_t n, const double *l, size_t ld, double *b);
 /* inverse := (L L')^-1, lower triangle (tiles on the diagonal whole); work: n x n. Row lengths ld
  * for all. O(2 n^3/3). */
 void matrix_inverse(size_t n, const double *l, size_t ld, double *inverse, double *work);
-
-/* C := A B, A n x k (lda), B k x m (ldb), C n x m (ldc). */
-void matrix_product(size_t n, size_t k, size_t m, const double *a, size_t lda, const double *b,
-                    size_t ldb, double *c, size_t ldc);
 
 #endif

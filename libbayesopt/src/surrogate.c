@@ -9,6 +9,9 @@
 #include "internal.h"
 #include "label.h"
 
+/* Numbers of a state beside its length scales. */
+enum { HEAD = 7 };
+
 bool surrogates_create(struct surrogates *s, size_t d, size_t n_constraints)
 {
     s->count = n_constraints + 2;
@@ -36,23 +39,23 @@ void surrogates_free(struct surrogates *s)
 
 size_t surrogates_state_size(const struct surrogates *s, size_t d)
 {
-    return s->count * (6 + d);
+    return s->count * (HEAD + d);
 }
 
 void surrogates_save(const struct surrogates *s, size_t d, double *values)
 {
-    for (size_t i = 0; i < s->count; i++, values += 6 + d) {
+    for (size_t i = 0; i < s->count; i++, values += HEAD + d) {
         const struct model_state *state = &s->states[i];
-        double head[] = {state->known,  state->isotropic, state->wide,
-                         state->cold_n, state->signal,    state->noise};
+        double head[HEAD] = {state->known,  state->isotropic, state->wide,     state->cold_n,
+                             state->signal, state->noise,     state->transform};
         memcpy(values, head, sizeof head);
-        memcpy(values + 6, state->lengthscale, d * sizeof *values);
+        memcpy(values + HEAD, state->lengthscale, d * sizeof *values);
     }
 }
 
 void surrogates_restore(struct surrogates *s, size_t d, const double *values)
 {
-    for (size_t i = 0; i < s->count; i++, values += 6 + d) {
+    for (size_t i = 0; i < s->count; i++, values += HEAD + d) {
         struct model_state *state = &s->states[i];
         state->known = values[0] != 0;
         state->isotropic = values[1] != 0;
@@ -60,7 +63,8 @@ void surrogates_restore(struct surrogates *s, size_t d, const double *values)
         state->cold_n = values[3];
         state->signal = values[4];
         state->noise = values[5];
-        memcpy(state->lengthscale, values + 6, d * sizeof *values);
+        state->transform = (bayesopt_transform)values[6];
+        memcpy(state->lengthscale, values + HEAD, d * sizeof *values);
     }
     s->fitted = false;
 }
@@ -172,6 +176,7 @@ static bayesopt_status fit_one(struct bayesopt *bo, size_t which, const struct s
         (*gp)->noise = state->noise;
         (*gp)->isotropic = state->isotropic;
         (*gp)->wide = state->wide;
+        (*gp)->transform.kind = state->transform;
         (*gp)->has_parameters = true;
     }
     status = bayesopt_gp_set_data(*gp, sample->n, sample->x, sample->y, sample->variance);
@@ -186,6 +191,7 @@ static bayesopt_status fit_one(struct bayesopt *bo, size_t which, const struct s
     state->noise = (*gp)->noise;
     state->isotropic = (*gp)->isotropic;
     state->wide = (*gp)->wide;
+    state->transform = (*gp)->transform.kind;
     state->known = true;
     return status;
 }

@@ -10,6 +10,7 @@ struct bayesopt;
 struct model_state {
     bool known, isotropic, wide;
     double cold_n; /* data at the last cold fit */
+    bayesopt_transform transform;
     double signal, noise;
     double *lengthscale; /* [d] */
 };
@@ -24,7 +25,7 @@ struct surrogates {
 bool surrogates_create(struct surrogates *surrogates, size_t d, size_t n_constraints);
 void surrogates_free(struct surrogates *surrogates);
 
-/* States as count * (6 + d) numbers, to keep and to restore. */
+/* States as count * (7 + d) numbers, to keep and to restore. */
 size_t surrogates_state_size(const struct surrogates *surrogates, size_t d);
 void surrogates_save(const struct surrogates *surrogates, size_t d, double *values);
 void surrogates_restore(struct surrogates *surrogates, size_t d, const double *values);
