@@ -308,6 +308,67 @@ static void raises_to_the_side(void)
     hull5415_free(&hull);
 }
 
+/* Sections of an ellipsoid are ellipses; half bodies give half ellipses, from plane to plane. */
+static void contours_of_an_ellipsoid(void)
+{
+    nurbs_surface *body;
+    nurbs_contour contour;
+    CU_ASSERT_EQUAL_FATAL(nurbs_make_ellipsoid(4, 2, 1, 0.2, &body), NURBS_OK);
+    const double normal[3] = {1, 0, 0};
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_contour(body, normal, 0.5, 8, &contour), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(contour.lines, 1);
+    size_t n = contour.first[1];
+    CU_ASSERT(n > 16);
+    double length = 0, r = sqrt(1 - 0.25 * 0.25);
+    for (size_t k = 0; k < n; k++) {
+        const double *p = contour.points + 3 * k;
+        double q[3], y = p[1] / r, z = (p[2] + 0.2) / (0.5 * r);
+        CHECK_CLOSE(p[0], 0.5, 1e-14);
+        CHECK_CLOSE(y * y + z * z, 1, 1e-13);
+        CU_ASSERT_EQUAL(nurbs_surface_eval(body, 0, 1, contour.uv + 2 * k, q), NURBS_OK);
+        CHECK_CLOSE(q[2], p[2], 1e-15);
+        if (k > 0)
+            length += hypot(p[1] - p[-2], p[2] - p[-1]);
+    }
+    /* Half the circumference of the ellipse with axes r and r/2: 2.42211 r. */
+    CHECK_CLOSE(length, 2.42211 * r, 0.01 * r);
+    nurbs_contour_free(&contour);
+    /* y = 0.9 cuts a closed line on the half body. */
+    const double across[3] = {0, 1, 0};
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_contour(body, across, 0.9, 16, &contour), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(contour.lines, 1);
+    n = contour.first[1];
+    for (size_t c = 0; c < 3; c++)
+        CHECK_CLOSE(contour.points[c], contour.points[3 * (n - 1) + c], 0);
+    nurbs_contour_free(&contour);
+    CU_ASSERT_EQUAL(nurbs_surface_contour(body, across, 1.1, 16, &contour), NURBS_OK);
+    CU_ASSERT_EQUAL(contour.lines, 0);
+    nurbs_contour_free(&contour);
+    CU_ASSERT_EQUAL(nurbs_surface_contour(body, across, NAN, 16, &contour), NURBS_ERROR_ARGUMENT);
+    CU_ASSERT_EQUAL(nurbs_surface_contour(body, across, 0, 0, &contour), NURBS_ERROR_ARGUMENT);
+    nurbs_surface_free(body);
+}
+
+/* The waterline of the hull is one line from transom to stem. */
+static void contour_is_the_waterline(void)
+{
+    struct hull5415 hull;
+    nurbs_contour contour;
+    const double up[3] = {0, 0, 1};
+    CU_ASSERT_FATAL(hull5415_load(&hull));
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_contour(hull.surface, up, 0, 4, &contour), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(contour.lines, 1);
+    const double *first = contour.points, *last = first + 3 * (contour.first[1] - 1);
+    CHECK_CLOSE(fmax(first[0], last[0]), 5.7227, 1e-3);
+    CHECK_CLOSE(fmin(first[0], last[0]), 0.0236, 1e-3);
+    double area = 0;
+    for (size_t k = 1; k < contour.first[1]; k++)
+        area += (first[3 * k] - first[3 * k - 3]) * (first[3 * k + 1] + first[3 * k - 2]);
+    CHECK_RELATIVE(fabs(area), 3.4003, 1e-3);
+    nurbs_contour_free(&contour);
+    hull5415_free(&hull);
+}
+
 static const struct check_case cases[] = {
     {"DTMB 5415 within its tolerance", dtmb5415_within_its_tolerance},
     {"keeps the knots along the hull", keeps_the_knots_along_the_hull},
@@ -317,6 +378,8 @@ static const struct check_case cases[] = {
     {"refuses with the place", refuses_with_the_place},
     {"finds folds", finds_folds},
     {"raises to the side", raises_to_the_side},
+    {"contours of an ellipsoid", contours_of_an_ellipsoid},
+    {"contour is the waterline", contour_is_the_waterline},
 };
 
 CHECK_MAIN("nurbs section", cases)

@@ -16,7 +16,8 @@ typedef struct subcommand {
 } subcommand;
 
 extern const subcommand make_command, info_command, eval_command, skin_command, fit_command,
-    grid_command, simplify_command, wetted_command, hydrostatics_command, convert_command;
+    grid_command, simplify_command, wetted_command, hydrostatics_command, convert_command,
+    plot_command;
 
 /* Options every subcommand takes, at the end of its getopt_long table. */
 #define COMMON_OPTIONS                                                                             \

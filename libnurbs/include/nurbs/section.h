@@ -39,6 +39,23 @@ NURBS_API nurbs_status nurbs_surface_check_fold(const nurbs_surface *surface, do
 NURBS_API nurbs_status nurbs_surface_raise_side(const nurbs_surface *surface,
                                                 nurbs_surface **result, double *moved);
 
+/** Lines in which a surface meets a plane, as points that lie on both. */
+typedef struct nurbs_contour {
+    size_t lines;   /**< number of lines */
+    size_t *first;  /**< [lines + 1]: line k has the points first[k] ... first[k + 1] - 1 */
+    double *points; /**< x,y,z triples */
+    double *uv;     /**< their parameters, pairs */
+} nurbs_contour;
+
+/** Fills the lines where normal . p = offset. The surface is searched on `parts` x `parts` cells a
+ * knot span (1 to 64): smaller islands are missed; the points on the cells' edges are found to
+ * rounding. A closed line repeats its first point. A plane that only touches gives no line.
+ * Complexity: evaluation of all cells' corners. */
+NURBS_API nurbs_status nurbs_surface_contour(const nurbs_surface *surface, const double normal[3],
+                                             double offset, int parts, nurbs_contour *contour);
+/** Frees the arrays; the struct itself is the caller's. */
+NURBS_API void nurbs_contour_free(nurbs_contour *contour);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,0 +1,154 @@
+#!/usr/bin/env bash
+# usage: test_nurbs_tool.sh NURBS SOURCE_DIR
+set -u
+nurbs=$(realpath "$1")
+source=$(realpath "$2")
+hulls=$source/examples/hulls
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failures=0
+
+fail() {
+    echo "FAILED: $*" >&2
+    failures=$((failures + 1))
+}
+
+# expect CODE command...: exit code; stdout and stderr are kept in files of these names.
+expect() {
+    local code=$1
+    shift
+    "$@" >stdout 2>stderr
+    local got=$?
+    [ "$got" -eq "$code" ] || fail "exit $got, expected $code: $* ($(head -c 300 stderr))"
+}
+
+says() {
+    grep -qF -- "$1" stderr || fail "stderr does not say '$1': $(head -c 300 stderr)"
+}
+
+# number NAME: the value of "NAME": ... in stdout.
+number() {
+    tr ',{}' '\n\n\n' <stdout | sed -n "s/^ *\"$1\": *//p" | head -1
+}
+
+# close NAME EXPECTED RELATIVE
+close() {
+    local value
+    value=$(number "$1")
+    awk -v a="$value" -v b="$2" -v t="$3" 'BEGIN { d = a - b; if (d < 0) d = -d; s = b < 0 ? -b : b;
+        exit !(a != "" && d <= t * (s > 0 ? s : 1)) }' || fail "$1 = '$value', expected $2"
+}
+
+# Help, version, usage.
+expect 0 "$nurbs" --help
+grep -q "usage: nurbs make" stdout || fail "--help lacks make"
+expect 0 "$nurbs" --version
+grep -Eq '^nurbs [0-9]+\.[0-9]+\.[0-9]+$' stdout || fail "--version: $(cat stdout)"
+for command in make info eval skin fit grid simplify wetted hydrostatics convert plot; do
+    expect 0 "$nurbs" $command --help
+    grep -q "^usage: nurbs $command" stdout || fail "$command --help"
+    expect 2 "$nurbs" $command --no-such-option
+    says "--no-such-option"
+done
+expect 2 "$nurbs"
+expect 2 "$nurbs" frobnicate
+says "unknown command 'frobnicate'"
+expect 2 "$nurbs" make wigley
+says "-o FILE"
+expect 2 "$nurbs" make cube -o x.json
+expect 2 "$nurbs" make wigley --length -3 -o x.json
+says "--length '-3'"
+expect 2 "$nurbs" make wigley --length 3x -o x.json
+expect 2 "$nurbs" info
+expect 2 "$nurbs" info a.json b.json
+says "b.json"
+expect 2 "$nurbs" simplify "$hulls/wigley.json" -o x.json
+expect 2 "$nurbs" info "$hulls/wigley.json" --threads 0
+[ ! -e x.json ] || fail "a refused command left x.json"
+
+# Failed runs name the file and the field.
+expect 1 "$nurbs" info nothing.json
+says "nothing.json"
+printf '{"format":"nurbs","version":1,"patches":[{"degree":[3,3],"size":[4,4],"knots":[[0]]}]}' >bad.json
+expect 1 "$nurbs" info bad.json
+says "bad.json: patch 0"
+expect 1 "$nurbs" convert "$hulls/wigley.json" hull.step
+says "hull.step"
+expect 1 "$nurbs" wetted "$hulls/wigley.json" --level 1 -o x.json
+says "u = 0"
+expect 1 "$nurbs" eval "$hulls/wigley.json" --patch 3 --at /dev/null
+says "no patch 3"
+
+# Bodies: equation of the Wigley hull, and outputs of each order.
+expect 0 "$nurbs" make wigley --length 2 --beam 0.2 --draft 0.125 -o wigley.json
+printf 'u,v\n0.25,0.5\n1,0\n' >uv.csv
+expect 0 "$nurbs" eval wigley.json --at uv.csv
+[ "$(head -1 stdout)" = u,v,x,y,z ] || fail "header of eval"
+sed -n 2p stdout | awk -F, "{ d = \$4 - 0.05625; exit !(\$3 == -0.5 && \$5 == -0.0625 && d * d < 1e-32) }" ||
+    fail "point of the Wigley hull: $(sed -n 2p stdout)"
+expect 0 "$nurbs" eval wigley.json --at - --derivatives 2 <uv.csv
+[ "$(head -1 stdout)" = u,v,x,y,z,xu,yu,zu,xv,yv,zv,xuu,yuu,zuu,xuv,yuv,zuv,xvv,yvv,zvv ] ||
+    fail "header of second derivatives"
+[ "$(sed -n 2p stdout | tr ',' '\n' | wc -l)" -eq 20 ] || fail "20 columns"
+expect 0 "$nurbs" eval wigley.json --at uv.csv --json
+[ "$(wc -l <stdout)" -eq 1 ] || fail "--json prints one line"
+printf 'u,v\n2,0\n' >outside.csv
+expect 1 "$nurbs" eval wigley.json --at outside.csv
+expect 0 "$nurbs" hydrostatics wigley.json --json
+[ "$(wc -l <stdout)" -eq 1 ] || fail "--json prints one line"
+close volume 0.022222222222222222 1e-12
+close vcb -0.046875 1e-12
+for body in sphere spheroid ellipsoid; do
+    expect 0 "$nurbs" make $body --depth 2 -o body.json
+    expect 0 "$nurbs" hydrostatics body.json --json
+done
+close volume 0.015707963267948967 1e-10 # 1 x 0.2 x 0.15
+
+# The hull: sample its design grid, skin and fit it again.
+expect 0 "$nurbs" hydrostatics "$hulls/dtmb5415.json" --json
+close volume 0.5535 3e-3
+close wetted_area 4.850 3e-3
+expect 0 "$nurbs" grid "$hulls/dtmb5415.json" --rows 90 --columns 25 -o grid.csv
+[ "$(wc -l <grid.csv)" -eq 2251 ] || fail "2250 points"
+expect 0 "$nurbs" skin grid.csv -o skin.json --json
+awk -v d="$(number deviation)" 'BEGIN { exit !(d < 1e-13) }' || fail "skin misses points"
+expect 0 "$nurbs" grid skin.json -o back.csv
+paste -d, grid.csv back.csv | awk -F, 'NR > 1 { for (k = 3; k <= 5; k++) { d = $k - $(k + 5);
+    if (d > 1e-12 || d < -1e-12) bad++ } } END { exit bad > 0 || NR != 2251 }' || fail "grid of the skin"
+expect 0 "$nurbs" fit grid.csv -o fit.json --tolerance 5e-4 --lpp 5.72 --note "a test" --json
+awk -v d="$(number deviation)" 'BEGIN { exit !(d <= 5e-4) }' || fail "fit beyond its tolerance"
+expect 0 "$nurbs" info fit.json --json
+close lpp 5.72 0
+grep -q '"note": "a test"' stdout || fail "note"
+grep -q '"design_grid": \[90, 25\]' stdout || fail "design grid kept"
+
+expect 0 "$nurbs" simplify skin.json --tolerance 1e-3 -o light.json --json
+awk -v d="$(number bound)" 'BEGIN { exit !(d > 0 && d <= 1e-3) }' || fail "bound of simplify"
+expect 0 "$nurbs" wetted "$hulls/dtmb5415.json" -o wet.json
+expect 0 "$nurbs" hydrostatics wet.json --json
+close volume 0.5535 3e-3
+
+# Formats.
+expect 0 "$nurbs" convert wet.json wet.igs
+expect 0 "$nurbs" convert wet.igs again.json
+says "128 B-spline surface x 1"
+expect 0 "$nurbs" hydrostatics again.json --json
+close volume 0.5535 3e-3
+for extension in stl vtu csv IGES; do
+    expect 0 "$nurbs" convert wigley.json wigley.$extension
+    [ -s wigley.$extension ] || fail "wigley.$extension is empty"
+done
+expect 0 "$nurbs" convert wigley.json scaled.json --scale 2 --lpp 4
+expect 0 "$nurbs" hydrostatics scaled.json --json
+close volume 0.17777777777777778 1e-12
+expect 0 "$nurbs" plot "$hulls/dtmb5415.json" -o lines.svg
+grep -q '</svg>' lines.svg || fail "lines.svg is not complete"
+grep -c '<path' lines.svg | awk '{ exit !($1 > 20) }' || fail "lines.svg has few curves"
+
+# Nothing half-written stays behind.
+expect 1 "$nurbs" convert wigley.json /nonexistent/x.json
+for f in *.json.*; do [ ! -e "$f" ] || fail "temporary file left: $f"; done
+
+[ "$failures" -eq 0 ] && echo "all passed"
+exit $((failures > 0))

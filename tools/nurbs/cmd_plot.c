@@ -1,0 +1,269 @@
+/* Lines plan as SVG: profile with buttocks, half-breadth plan with waterlines, body plan with
+ * sections, in the layout of a drawing office. */
+#include "nurbs_tool.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct plan {
+    const nurbs_patches *patches;
+    double low[3], high[3];
+    double margin; /* pixels */
+    FILE *stream;
+};
+
+/* How model axes go onto the sheet: x of the sheet from `across` with a sign, y upwards from `up`.
+ */
+struct view {
+    const char *title;
+    int across, up;
+    double sign, left, base; /* sheet position of the model's zero */
+    double scale;            /* pixels per metre */
+};
+
+static void box_of_points(struct plan *plan)
+{
+    for (int c = 0; c < 3; c++) {
+        plan->low[c] = INFINITY;
+        plan->high[c] = -INFINITY;
+    }
+    for (size_t k = 0; k < nurbs_patches_count(plan->patches); k++) {
+        const nurbs_surface *surface = nurbs_patches_get(plan->patches, k);
+        size_t n = nurbs_surface_size(surface, 0) * nurbs_surface_size(surface, 1);
+        const double *p = nurbs_surface_points(surface);
+        for (size_t i = 0; i < 3 * n; i++) {
+            plan->low[i % 3] = fmin(plan->low[i % 3], p[i]);
+            plan->high[i % 3] = fmax(plan->high[i % 3], p[i]);
+        }
+    }
+}
+
+static void put_line(const struct plan *plan, const struct view *view, size_t n,
+                     const double *points, const char *style)
+{
+    fprintf(plan->stream, "<path class=\"%s\" d=\"", style);
+    for (size_t k = 0; k < n; k++)
+        fprintf(plan->stream, "%c%.2f %.2f", k ? 'L' : 'M',
+                view->left + view->sign * view->scale * points[3 * k + (size_t)view->across],
+                view->base - view->scale * points[3 * k + (size_t)view->up]);
+    fprintf(plan->stream, "\"/>\n");
+}
+
+/* The section of all patches with coordinate `axis` = value. */
+static int put_section(const struct plan *plan, const struct view *view, int axis, double value,
+                       const char *style)
+{
+    for (size_t k = 0; k < nurbs_patches_count(plan->patches); k++) {
+        double normal[3] = {0, 0, 0};
+        nurbs_contour contour;
+        normal[axis] = 1;
+        if (nurbs_surface_contour(nurbs_patches_get(plan->patches, k), normal, value, 4,
+                                  &contour) != NURBS_OK)
+            return library_failure();
+        for (size_t l = 0; l < contour.lines; l++)
+            put_line(plan, view, contour.first[l + 1] - contour.first[l],
+                     contour.points + 3 * contour.first[l], style);
+        nurbs_contour_free(&contour);
+    }
+    return CLI_OK;
+}
+
+/* The four edges of every patch: stem, keel, deck and transom. */
+static int put_edges(const struct plan *plan, const struct view *view)
+{
+    enum { SAMPLES = 400 };
+    double t[SAMPLES + 1], points[3 * (SAMPLES + 1)];
+    for (size_t k = 0; k < nurbs_patches_count(plan->patches); k++)
+        for (int e = 0; e < 4; e++) {
+            const nurbs_surface *surface = nurbs_patches_get(plan->patches, k);
+            int d = e / 2; /* constant direction */
+            const double *fixed = nurbs_surface_knots(surface, d),
+                         *range = nurbs_surface_knots(surface, !d);
+            double value = e % 2 ? fixed[nurbs_surface_size(surface, d)] : fixed[0],
+                   last = range[nurbs_surface_size(surface, !d)];
+            for (int i = 0; i <= SAMPLES; i++)
+                t[i] = i == SAMPLES ? last : range[0] + (last - range[0]) * i / SAMPLES;
+            nurbs_status status =
+                d == 0 ? nurbs_surface_eval_grid(surface, 0, 1, &value, SAMPLES + 1, t, points)
+                       : nurbs_surface_eval_grid(surface, 0, SAMPLES + 1, t, 1, &value, points);
+            if (status != NURBS_OK)
+                return library_failure();
+            put_line(plan, view, SAMPLES + 1, points, "edge");
+        }
+    return CLI_OK;
+}
+
+static int put_profile(const struct plan *plan, const struct view *view, size_t buttocks)
+{
+    int code = put_edges(plan, view);
+    for (size_t k = 1; k <= buttocks && code == CLI_OK; k++)
+        code =
+            put_section(plan, view, 1, plan->high[1] * (double)k / (double)(buttocks + 1), "thin");
+    return code;
+}
+
+static int put_half_breadth(const struct plan *plan, const struct view *view, size_t waterlines,
+                            double level)
+{
+    int code = put_edges(plan, view);
+    for (size_t k = 1; k < waterlines && code == CLI_OK; k++) {
+        double z = plan->low[2] + (plan->high[2] - plan->low[2]) * (double)k / (double)waterlines;
+        code = put_section(plan, view, 2, z, "thin");
+    }
+    return code == CLI_OK ? put_section(plan, view, 2, level, "water") : code;
+}
+
+/* Sections of the fore body to the right, of the aft body to the left. */
+static int put_body_plan(const struct plan *plan, struct view view, size_t stations)
+{
+    double length = plan->high[0] - plan->low[0];
+    int code = CLI_OK;
+    for (size_t k = 1; k < stations && code == CLI_OK; k++) {
+        double share = (double)k / (double)stations;
+        view.sign = share < 0.5 ? -1 : 1;
+        code = put_section(plan, &view, 0, plan->low[0] + share * length, "thin");
+        if (2 * k == stations && code == CLI_OK) {
+            view.sign = -1;
+            code = put_section(plan, &view, 0, plan->low[0] + share * length, "thin");
+        }
+    }
+    return code;
+}
+
+static void put_frame(const struct plan *plan, const struct view *view, double from, double to,
+                      double level)
+{
+    double z = view->up == 2 ? level : 0;
+    fprintf(plan->stream,
+            "<text x=\"%.1f\" y=\"%.1f\">%s</text>\n"
+            "<path class=\"water\" d=\"M%.2f %.2fL%.2f %.2f\"/>\n",
+            plan->margin,
+            view->base - view->scale * (view->up == 2 ? plan->high[2] : plan->high[1]) - 8,
+            view->title, view->left + view->sign * view->scale * from, view->base - view->scale * z,
+            view->left + view->sign * view->scale * to, view->base - view->scale * z);
+}
+
+struct request {
+    size_t stations, waterlines, buttocks;
+    double level;
+    const char *output;
+};
+
+static int draw(struct plan *plan, const struct request *request)
+{
+    double length = plan->high[0] - plan->low[0], height = plan->high[2] - plan->low[2],
+           breadth = plan->high[1], gap = 40;
+    if (!(length > 0) || !(height > 0) || !(breadth > 0))
+        return cli_fail("the body has no extent to draw");
+    plan->margin = 30;
+    double s = 1200 / length, large = fmin(3 * s, 600 / breadth),
+           left = plan->margin - s * plan->low[0];
+    double second = plan->margin + 2 * gap + s * (height + breadth),
+           third = second + gap + large * height;
+    struct view profile = {
+        "Profile and buttocks", 0, 2, 1, left, plan->margin + gap + s * plan->high[2], s};
+    struct view half = {"Half-breadth plan and waterlines", 0, 1, 1, left, second, s};
+    struct view body = {"Body plan (aft left, fore right)", 1,    2, 1, plan->margin + 600,
+                        third + large * plan->low[2],       large};
+    double sheet = third + plan->margin;
+    fprintf(plan->stream,
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\">\n"
+            "<style>path{fill:none;stroke-linejoin:round}.thin{stroke:#334;stroke-width:.7}"
+            ".edge{stroke:#000;stroke-width:1.3}.water{stroke:#06c;stroke-width:1}"
+            "text{font:13px sans-serif}</style>\n<rect width=\"100%%\" height=\"100%%\" "
+            "fill=\"#fff\"/>\n",
+            1200 + 2 * plan->margin, sheet);
+    put_frame(plan, &profile, plan->low[0], plan->high[0], request->level);
+    put_frame(plan, &half, plan->low[0], plan->high[0], request->level);
+    put_frame(plan, &body, -breadth, breadth, request->level);
+    int code = put_profile(plan, &profile, request->buttocks);
+    if (code == CLI_OK)
+        code = put_half_breadth(plan, &half, request->waterlines, request->level);
+    if (code == CLI_OK)
+        code = put_body_plan(plan, body, request->stations);
+    fprintf(plan->stream, "</svg>\n");
+    return code;
+}
+
+static int plot(const char *input, const struct request *request, bool json)
+{
+    nurbs_patches *patches = NULL;
+    struct cli_file file;
+    int code = load_patches(input, &patches);
+    if (code != CLI_OK)
+        return code;
+    struct plan plan = {.patches = patches};
+    box_of_points(&plan);
+    if (!cli_file_open(&file, request->output)) {
+        code = cli_fail("%s: %s", request->output, strerror(errno));
+    } else {
+        plan.stream = file.stream;
+        code = draw(&plan, request);
+        if (code != CLI_OK)
+            cli_file_abandon(&file);
+        else if (!cli_file_commit(&file))
+            code = cli_fail("%s: %s", request->output, strerror(errno));
+    }
+    nurbs_patches_free(patches);
+    if (code == CLI_OK && json)
+        code = print_json(json_pack("{s:s}", "file", request->output));
+    return code;
+}
+
+static int count_option(const char *name, const char *text, size_t *value)
+{
+    if (!cli_parse_size(text, value) || *value > 1000)
+        return cli_usage("--%s '%s': expected a number up to 1000", name, text);
+    return CLI_OK;
+}
+
+static int run(int argc, char **argv)
+{
+    static const struct option options[] = {{"stations", required_argument, NULL, 's'},
+                                            {"waterlines", required_argument, NULL, 'w'},
+                                            {"buttocks", required_argument, NULL, 'b'},
+                                            {"level", required_argument, NULL, 'z'},
+                                            {"output", required_argument, NULL, 'o'},
+                                            COMMON_OPTIONS,
+                                            END_OF_OPTIONS};
+    struct request request = {20, 12, 4, 0, NULL};
+    bool json = false;
+    int letter, code = CLI_OK;
+    while (code == CLI_OK && (letter = getopt_long(argc, argv, ":o:", options, NULL)) != -1)
+        switch (letter) {
+        case 's':
+            code = count_option("stations", optarg, &request.stations);
+            break;
+        case 'w':
+            code = count_option("waterlines", optarg, &request.waterlines);
+            break;
+        case 'b':
+            code = count_option("buttocks", optarg, &request.buttocks);
+            break;
+        case 'z':
+            code = number_option("level", optarg, &request.level);
+            break;
+        case 'o':
+            request.output = optarg;
+            break;
+        default:
+            code = common_option(letter, argv, &json);
+        }
+    if (code == CLI_OK)
+        code = operand_count(argc, argv, 1, "one NURBS file");
+    if (code == CLI_OK && !request.output)
+        code = cli_usage("no output file: give -o LINES.svg");
+    return code == CLI_OK ? plot(argv[optind], &request, json) : code;
+}
+
+const subcommand plot_command = {
+    "plot", "draw the lines plan", run,
+    "usage: nurbs plot FILE -o LINES.svg [options]\n"
+    "  Profile with buttocks, half-breadth plan with waterlines, body plan with sections.\n"
+    "  --stations N   spaces between sections (20)\n"
+    "  --waterlines N spaces between waterlines (12)\n"
+    "  --buttocks N   number of buttocks (4)\n"
+    "  --level Z      still water, drawn in blue (0)\n"
+    "  -o, --output LINES.svg\n"};
