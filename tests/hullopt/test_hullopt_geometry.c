@@ -88,7 +88,7 @@ static void test_limits_of_grid(void)
     double ratio = volume_of_grid(ROWS, COLUMNS, moved) / volume_of_grid(ROWS, COLUMNS, points);
     CHECK_CLOSE(limits_volume_ratio(&limits, u), ratio, 1e-13);
     CU_ASSERT_TRUE(fabs(ratio - 1) > 1e-3);
-    CHECK_CLOSE(limits_least_y(&limits, u), least, 1e-15);
+    CHECK_CLOSE(limits_breadth(&limits, u).least_y, least, 1e-15);
     CU_ASSERT_TRUE(least < 0);
     limits_free(&limits);
     latent_free(&latent);
@@ -122,7 +122,10 @@ static void test_limits_of_hull(void)
     double ratio = moved.hydrostatics.volume / original.hydrostatics.volume;
     CU_ASSERT_TRUE(fabs(ratio - 1) > 0.1);
     CHECK_CLOSE(limits_volume_ratio(&limits, u), ratio, 1e-4);
-    CHECK_CLOSE(limits_least_y(&limits, u), 0, 1e-15);
+    struct limits_breadth breadth = limits_breadth(&limits, u);
+    CHECK_CLOSE(breadth.least_y, 0, 1e-15);
+    /* The mode widens the fore end by 1.5 x 0.15 and the aft end by 0.5 x 0.15; next to it. */
+    CHECK_CLOSE(breadth.least_share, 1 + 0.15 * (1 - 0.475), 1e-12);
     design_free(&original);
     design_free(&moved);
     limits_free(&limits);

@@ -1,6 +1,7 @@
 /* The database of a run: what goes in comes out, and what is not a run is refused. */
 #include "capture.h"
 #include "check.h"
+#include "cli.h"
 #include "store.h"
 
 #include <sqlite3.h>
@@ -172,9 +173,9 @@ static void test_verifications_and_sessions(void)
     CU_ASSERT_STRING_EQUAL(list[1].note, "optimum: too thin");
     free(list);
 
-    CU_ASSERT_TRUE(store_begin_session(store, 2));
+    CU_ASSERT_TRUE(store_begin_session(store, 2, cli_seconds()));
     CU_ASSERT_TRUE(store_update_session(store));
-    CU_ASSERT_TRUE(store_begin_session(store, 1));
+    CU_ASSERT_TRUE(store_begin_session(store, 1, cli_seconds()));
     double seconds = store_total_seconds(store, &sessions);
     CU_ASSERT_EQUAL(sessions, 2);
     CU_ASSERT_TRUE(seconds >= 0 && seconds < 60);

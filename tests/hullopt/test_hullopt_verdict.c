@@ -6,7 +6,8 @@
 
 static struct verification row(const char *group, double before, double after)
 {
-    struct verification v = {.cw_parent = before, .cw_best = after};
+    struct verification v = {
+        .cw_parent = before, .cw_best = after, .cw_pressure_parent = NAN, .cw_pressure_best = NAN};
     snprintf(v.group, sizeof v.group, "%s", group);
     return v;
 }
@@ -41,6 +42,21 @@ static void test_only_objective(void)
     CU_ASSERT_EQUAL(v.deny, 1);
     CU_ASSERT_EQUAL(v.partly, 1);
     CU_ASSERT_PTR_NOT_NULL(strstr(v.statement, "Only the model of the search"));
+}
+
+/* Kochin function and pressure of the same solution contradict each other: that is said. */
+static void test_pressure(void)
+{
+    struct verification rows[] = {row("objective", 1.0, 0.5), row("formulation", 1.0, 0.6)};
+    struct verdict v;
+    rows[0].cw_pressure_parent = 1.0;
+    rows[0].cw_pressure_best = 1.7;
+    verify_judge(rows, 2, &v);
+    CHECK_CLOSE(v.pressure, -0.7, 1e-15);
+    CU_ASSERT_PTR_NOT_NULL(strstr(v.statement, "+70.0 %"));
+    rows[0].cw_pressure_best = 0.6;
+    verify_judge(rows, 2, &v);
+    CU_ASSERT_PTR_NULL(strstr(v.statement, "pressure"));
 }
 
 static void test_divided(void)
@@ -106,9 +122,13 @@ static void test_plan(void)
 }
 
 static const struct check_case cases[] = {
-    {"all models agree", test_confirmed}, {"only the objective sees the gain", test_only_objective},
-    {"models disagree", test_divided},    {"missing results", test_missing},
-    {"no gain at all", test_no_gain},     {"what is verified", test_plan},
+    {"all models agree", test_confirmed},
+    {"only the objective sees the gain", test_only_objective},
+    {"pressure contradicts", test_pressure},
+    {"models disagree", test_divided},
+    {"missing results", test_missing},
+    {"no gain at all", test_no_gain},
+    {"what is verified", test_plan},
 };
 
 CHECK_MAIN("hullopt verdict", cases)

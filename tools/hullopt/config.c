@@ -111,6 +111,7 @@ static bool read_latent(const char *path, const struct config_file *file, struct
          &config->tolerance},
         {"constraints.displacement", file->constraints.displacement, 0, 1, true,
          &config->displacement},
+        {"constraints.breadth", file->constraints.breadth, 0, 1, true, &config->breadth},
     };
     size_t seed = 1;
     if (!read_count(path, "grid.sections", file->grid.sections, 4, 2000, &config->sections) ||
@@ -242,6 +243,7 @@ static void set_defaults(struct config *config)
     config->variance = 0.95;
     config->tolerance = 1e-4;
     config->displacement = NAN;
+    config->breadth = NAN;
     config->initial = 200;
     config->iterations = 100;
     config->design = BAYESOPT_DESIGN_STLBO;
@@ -254,6 +256,14 @@ static void write_line(FILE *out, const char *field, double value)
 {
     if (isnan(value))
         fprintf(out, "%s = by rule\n", field);
+    else
+        fprintf(out, "%s = %.15g\n", field, value);
+}
+
+static void write_limit(FILE *out, const char *field, double value)
+{
+    if (isnan(value))
+        fprintf(out, "%s = none\n", field);
     else
         fprintf(out, "%s = %.15g\n", field, value);
 }
@@ -287,10 +297,8 @@ static void write_settings(FILE *out, const struct config *c)
             (unsigned long long)c->latent_seed);
     write_line(out, "latent.variance", c->variance);
     write_line(out, "reconstruction.tolerance", c->tolerance);
-    if (isnan(c->displacement))
-        fputs("constraints.displacement = none\n", out);
-    else
-        write_line(out, "constraints.displacement", c->displacement);
+    write_limit(out, "constraints.displacement", c->displacement);
+    write_limit(out, "constraints.breadth", c->breadth);
     write_line(out, "flow.froude", s->froude);
     write_line(out, "flow.gravity", s->gravity);
     write_line(out, "flow.density", s->density);

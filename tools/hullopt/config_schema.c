@@ -46,6 +46,7 @@ static const cyaml_schema_field_t solver[] = {
 
 static const cyaml_schema_field_t constraints[] = {
     OPTIONAL(displacement, config_constraints),
+    OPTIONAL(breadth, config_constraints),
     CYAML_FIELD_END,
 };
 

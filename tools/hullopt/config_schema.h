@@ -25,7 +25,7 @@ struct config_file {
             *stern_length, *stern_blend, *spectrum_limit, *tolerance;
     } solver;
     struct config_constraints {
-        char *displacement;
+        char *displacement, *breadth;
     } constraints;
     struct config_search {
         char *initial, *iterations, *design, *strategy, *seed;

@@ -43,17 +43,17 @@ struct plan {
     double last_x, last_y;
 };
 
-static void number_station(struct plan *plan, const double (*yz)[2], size_t n, double side,
-                           int station)
+static void number_station(struct plan *plan, size_t n, const double *section_x,
+                           const double *section_z, int station)
 {
     char text[16];
-    const double *top = NULL;
+    size_t top = n;
     for (size_t j = 0; j < n; j++)
-        if (isfinite(yz[j][0]) && (!top || yz[j][1] > top[1]))
-            top = yz[j];
-    if (!top)
+        if (isfinite(section_x[j]) && (top == n || section_z[j] > section_z[top]))
+            top = j;
+    if (top == n)
         return;
-    double x = svg_x(&plan->frame, side * top[0]), y = svg_y(&plan->frame, top[1]) - 5;
+    double x = svg_x(&plan->frame, section_x[top]), y = svg_y(&plan->frame, section_z[top]) - 5;
     if (hypot(x - plan->last_x, y - plan->last_y) < 13)
         return;
     plan->last_x = x;
@@ -96,7 +96,7 @@ static void draw_sections(struct plan *plan, const struct results *r, const nurb
         drop_scraps(s.nv, x);
         svg_curve(plan->out, &plan->frame, s.nv, x, z, colour, 1.5, dashes);
         if (numbers)
-            number_station(plan, (const double(*)[2])yz, s.nv, side, k);
+            number_station(plan, s.nv, x, z, k);
     }
     free(yz);
     free(x);

@@ -109,13 +109,13 @@ void draw_history(FILE *out, const struct results *r)
     }
     double x[] = {f.x0, f.x1}, y[] = {r->baseline->cw, r->baseline->cw};
     svg_curve(out, &f, 2, x, y, SVG_ORIGINAL, 1.6, "5 4");
-    draw_points(out, &f, r);
     draw_incumbent(out, &f, r);
+    draw_points(out, &f, r);
     svg_legend_row(out, f.left, 22, legend, sizeof legend / sizeof *legend);
     if (r->failed) {
         fprintf(out, "<path d=\"M%.1f 14.5l7 7m0 -7l-7 7\" stroke=\"%s\" stroke-width=\"1.5\"/>\n",
-                f.left + 432.0, SVG_RED);
-        svg_text(out, f.left + 446, 22, 12, "start", SVG_INK, "failed");
+                f.left + 452.0, SVG_RED);
+        svg_text(out, f.left + 466, 22, 12, "start", SVG_INK, "failed");
     }
     svg_close(out);
 }

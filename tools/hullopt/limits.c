@@ -131,13 +131,23 @@ double limits_volume_ratio(const struct limits *limits, const double *u)
     return volume / limits->parent_volume;
 }
 
-double limits_least_y(const struct limits *limits, const double *u)
+/* Parent points nearer to the centre plane than this, in metres, belong to keel, stem and stern. */
+static const double CENTRE = 1e-6;
+
+static void narrow(const double *point, double y, struct limits_breadth *breadth)
+{
+    breadth->least_y = fmin(breadth->least_y, y);
+    if (point[2] <= 0 && point[1] > CENTRE)
+        breadth->least_share = fmin(breadth->least_share, y / point[1]);
+}
+
+struct limits_breadth limits_breadth(const struct limits *limits, const double *u)
 {
     enum { BLOCK = 64 };
     const struct latent *latent = limits->latent;
     const double *points = nurbs_grid_points(limits->parent);
     size_t n = latent->coordinates / 3;
-    double least = INFINITY;
+    struct limits_breadth breadth = {INFINITY, INFINITY};
     for (size_t start = 0; start < n; start += BLOCK) {
         size_t end = start + BLOCK < n ? start + BLOCK : n;
         double y[BLOCK];
@@ -148,8 +158,8 @@ double limits_least_y(const struct limits *limits, const double *u)
             for (size_t k = start; k < end; k++)
                 y[k - start] += u[m] * mode[3 * k + 1];
         }
-        for (size_t k = 0; k < end - start; k++)
-            least = fmin(least, y[k]);
+        for (size_t k = start; k < end; k++)
+            narrow(points + 3 * k, y[k - start], &breadth);
     }
-    return least;
+    return breadth;
 }

@@ -31,7 +31,12 @@ bool limits_gradient(const struct latent *latent, const struct parent *parent, d
 /* Volume over that of the parent. NAN when memory runs out. */
 double limits_volume_ratio(const struct limits *limits, const double *u);
 
-/* Least y of the moved grid, m; negative: across the centre plane. */
-double limits_least_y(const struct limits *limits, const double *u);
+/* What becomes of the half breadths of the grid. */
+struct limits_breadth {
+    double least_y; /* m; negative: across the centre plane */
+    double
+        least_share; /* over the points below z = 0 and off the centre plane: y over the parent's */
+};
+struct limits_breadth limits_breadth(const struct limits *limits, const double *u);
 
 #endif

@@ -105,7 +105,7 @@ static int read_options(int argc, char **argv, struct run_options *o)
 
 int main(int argc, char **argv)
 {
-    struct run_options options = {.overrides = {SIZE_MAX, SIZE_MAX}};
+    struct run_options options = {.overrides = {SIZE_MAX, SIZE_MAX}, .start = cli_seconds()};
     cli_set_name("hullopt");
     opterr = 0;
     int code = read_options(argc, argv, &options);

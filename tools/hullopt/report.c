@@ -51,15 +51,15 @@ static void latent_section(FILE *out, const struct results *r)
     fputs("<figure>\n", out);
     draw_error(out, &r->latent);
     figure(out, "Mean square error of the reconstruction, as a function of the modes kept.");
-    fputs("</div><div class=\"modes\">\n", out);
+    fputs("</div><div class=\"two\">\n", out);
     for (size_t k = 0; k < 3 && k < r->latent.modes; k++) {
         fputs("<figure>\n", out);
         draw_mode(out, r, k);
         fputs("</figure>\n", out);
     }
-    fputs("</div><p class=\"note\">The leading modes on the original hull, seen from the port bow: "
+    fputs("<p class=\"note\">The leading modes on the original hull, seen from the port bow: "
           "blue where the mode leaves the surface alone, yellow where it moves it most. White: "
-          "still water.</p></section>\n",
+          "still water.</p></div></section>\n",
           out);
 }
 
@@ -110,18 +110,18 @@ static void draw_optimum(FILE *out, const struct results *r)
 
 static void hull_section(FILE *out, const struct results *r)
 {
-    fputs("<section><h2>Hulls</h2><div class=\"two\"><figure>\n", out);
-    draw_original(out, r);
-    fputs("</figure><figure>\n", out);
-    draw_optimum(out, r);
-    fputs("</figure></div><div class=\"two\"><figure>\n", out);
+    fputs("<section><h2>Hulls</h2><div class=\"two\"><div><figure>\n", out);
     draw_body_plan(out, r);
     figure(out, "Body plans, stations numbered from 0 at the aft perpendicular to 20 at the fore "
                 "perpendicular.");
-    fputs("<figure>\n", out);
+    fputs("</div><div><figure>\n", out);
+    draw_original(out, r);
+    fputs("</figure><figure>\n", out);
+    draw_optimum(out, r);
+    fputs("</figure><figure>\n", out);
     draw_section_areas(out, r);
     figure(out, "Sectional-area curves below the still water.");
-    fputs("</div>\n", out);
+    fputs("</div></div>\n", out);
     report_particulars(out, r);
     fputs("</section>\n", out);
 }

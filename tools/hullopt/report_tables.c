@@ -18,7 +18,7 @@ static void cell(FILE *out, const char *format, double value)
 }
 
 /* The constraints are figures before and after like the others, with their limits beside them. */
-static void constraint_row(FILE *out, const struct results *r)
+static void displacement_row(FILE *out, const struct results *r)
 {
     double allowed = results_number(r->settings, "constraints.displacement");
     double change = r->best->volume_ratio - 1;
@@ -31,6 +31,20 @@ static void constraint_row(FILE *out, const struct results *r)
     else
         fprintf(out, "<td>±%g %%, %s</td></tr>\n", 100 * allowed,
                 fabs(change) <= allowed ? "kept" : "violated");
+}
+
+static void breadth_row(FILE *out, const struct results *r)
+{
+    double least = results_number(r->settings, "constraints.breadth");
+    fputs("<tr class=\"total\"><td>Constraint: least share of a half breadth kept</td><td></td>"
+          "<td class=\"n\">1</td>",
+          out);
+    cell(out, "%.3f", r->breadth);
+    fputs("<td></td>", out);
+    if (isnan(least))
+        fputs("<td>not across the centre plane</td></tr>\n", out);
+    else
+        fprintf(out, "<td>≥ %g, %s</td></tr>\n", least, r->breadth >= least ? "kept" : "violated");
 }
 
 static void resistance_row(FILE *out, const char *label, double before, double after)
@@ -54,7 +68,8 @@ void report_particulars(FILE *out, const struct results *r)
                    r->best->cw);
     resistance_row(out, "Wave resistance coefficient, pressure", r->baseline->cw_pressure,
                    r->best->cw_pressure);
-    constraint_row(out, r);
+    displacement_row(out, r);
+    breadth_row(out, r);
     for (size_t i = 0; i < n; i++) {
         fprintf(out, "<tr><td>%s</td><td>%s</td>", list[i].label, list[i].unit);
         for (int k = 0; k < 2; k++)

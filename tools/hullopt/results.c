@@ -1,6 +1,7 @@
 #include "results.h"
 
 #include "cli.h"
+#include "limits.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -84,6 +85,16 @@ static bool load_designs(struct results *r)
            (build(r, r->baseline->u, &r->designs[0]) && build(r, r->best->u, &r->designs[1]));
 }
 
+static void measure_breadth(struct results *r)
+{
+    struct limits limits;
+    r->breadth = NAN;
+    if (!r->best || !limits_create(&r->latent, r->parent.grid, NULL, &limits))
+        return;
+    r->breadth = limits_breadth(&limits, r->best->u).least_share;
+    limits_free(&limits);
+}
+
 static void load_parameters(struct store *store, struct results *r)
 {
     size_t one, n;
@@ -117,6 +128,7 @@ bool results_load(struct store *store, struct results *r)
     bool both = waves_load(store, "parent", &r->waves[0]);
     both = (waves_load(store, "best", &r->waves[1]) || r->best == r->baseline) && both;
     load_parameters(store, r);
+    measure_breadth(r);
     r->seconds = store_total_seconds(store, &r->sessions);
     r->complete = r->stop && both && r->n_rows > 0;
     return true;

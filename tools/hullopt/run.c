@@ -212,7 +212,8 @@ static bool run_stages(const struct run_options *options, const struct config *c
     double *best = NULL;
     size_t modes = evaluator->latent->modes, rows, columns;
     double *gradient = store_get_array(store, "volume.gradient", &rows, &columns);
-    bool ok = (!gradient || columns == modes) && store_begin_session(store, options->threads) &&
+    bool ok = (!gradient || columns == modes) &&
+              store_begin_session(store, options->threads, options->start) &&
               search_create(config, evaluator, path, gradient, &search);
     free(gradient);
     if (ok) {

@@ -10,6 +10,7 @@ struct run_options {
     bool resume;
     bool json; /* the summary on standard output instead of the figures */
     int threads;
+    double start; /* of the command, cli_seconds() */
 };
 
 /* Returns an exit code. */

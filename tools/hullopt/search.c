@@ -10,21 +10,29 @@
 /* Known volumes of hulls are linear to a few 1e-5, so the search stays this far inside the band,
  * and grids are allowed to touch the centre plane. */
 static const double BAND_MARGIN = 1e-4, TOUCH = 1e-9;
-enum { CENTRE_PLANE, TOO_LARGE, TOO_SMALL, LIMITS };
 
+/* Fills one value per limit that the configuration sets; <= 0 is allowed. */
 static int known_limits(void *data, size_t d, const double *u, double *value)
 {
     const struct search *search = data;
-    double length = search->evaluator->parent->length;
+    const struct config *config = search->config;
+    struct limits_breadth breadth = limits_breadth(&search->limits, u);
     (void)d;
-    value[CENTRE_PLANE] = -limits_least_y(&search->limits, u) / length - TOUCH;
-    if (isnan(search->config->displacement))
+    *value++ = -breadth.least_y / search->evaluator->parent->length - TOUCH;
+    if (!isnan(config->breadth))
+        *value++ = config->breadth - breadth.least_share;
+    if (isnan(config->displacement))
         return 0;
     double change = limits_volume_ratio(&search->limits, u) - 1;
-    double band = fmax(search->config->displacement - BAND_MARGIN, 0);
-    value[TOO_LARGE] = change - band;
-    value[TOO_SMALL] = -change - band;
+    double band = fmax(config->displacement - BAND_MARGIN, 0);
+    *value++ = change - band;
+    *value++ = -change - band;
     return isnan(change);
+}
+
+static size_t count_limits(const struct config *config)
+{
+    return 1u + (isnan(config->breadth) ? 0u : 1u) + (isnan(config->displacement) ? 0u : 2u);
 }
 
 bool search_create(const struct config *config, struct evaluator *evaluator, const char *path,
@@ -43,7 +51,7 @@ bool search_create(const struct config *config, struct evaluator *evaluator, con
     options.initial_n = config->initial;
     options.max_evaluations = 1 + config->initial + config->iterations; /* 1: the parent */
     options.strategy = config->strategy;
-    options.n_input_constraints = isnan(config->displacement) ? CENTRE_PLANE + 1 : LIMITS;
+    options.n_input_constraints = count_limits(config);
     options.input_constraint = known_limits;
     options.input_data = search;
     if (bayesopt_create(latent->modes, latent->lower, latent->upper, &options, &search->bo) !=

@@ -163,7 +163,7 @@ char *store_get_text(struct store *store, const char *key)
     return value;
 }
 
-bool store_begin_session(struct store *store, int threads)
+bool store_begin_session(struct store *store, int threads, double start)
 {
     sqlite3_stmt *s =
         store_prepare(store, "INSERT INTO hullopt_session (threads, seconds) VALUES (?1, 0)");
@@ -173,7 +173,7 @@ bool store_begin_session(struct store *store, int threads)
     if (!store_finish(store, s))
         return false;
     store->session = sqlite3_last_insert_rowid(store->db);
-    store->session_start = cli_seconds();
+    store->session_start = start;
     return true;
 }
 

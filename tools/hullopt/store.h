@@ -61,8 +61,9 @@ struct verification {
 bool store_put_verification(struct store *store, size_t position, const struct verification *row);
 bool store_list_verifications(struct store *store, struct verification **list, size_t *n);
 
-/* Time spent by all sessions: begin makes a row, seconds counts from begin at every put. */
-bool store_begin_session(struct store *store, int threads);
+/* Time spent by all sessions: begin makes a row, update writes the seconds since `start`, a reading
+ * of cli_seconds(). */
+bool store_begin_session(struct store *store, int threads, double start);
 bool store_update_session(struct store *store);
 double store_total_seconds(struct store *store, size_t *sessions);
 

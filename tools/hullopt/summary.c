@@ -58,6 +58,13 @@ static json_t *constraints(const struct results *r)
     put(displacement, "change", change);
     put_flag(displacement, "satisfied", isnan(allowed) || fabs(change) <= allowed);
     json_object_set_new(o, "displacement", displacement);
+    json_t *breadth = json_object();
+    double least = results_number(r->settings, "constraints.breadth");
+    put(breadth, "allowed", least);
+    put(breadth, "before", 1);
+    put(breadth, "after", r->breadth);
+    put_flag(breadth, "satisfied", isnan(least) || r->breadth >= least);
+    json_object_set_new(o, "breadth", breadth);
     return o;
 }
 
@@ -110,6 +117,7 @@ static json_t *robust(const struct verdict *v)
                         v->has_resolution ? json_boolean(v->resolution) : json_null());
     json_object_set_new(o, "speeds", v->has_speeds ? json_boolean(v->speeds) : json_null());
     put_flag(o, "only_objective", v->only_objective);
+    put(o, "reduction_percent_pressure", 100 * v->pressure);
     put_count(o, "other_models", v->models);
     put_count(o, "confirm", v->confirm);
     put_count(o, "partly", v->partly);

@@ -30,6 +30,7 @@ static void count(const struct verification *row, struct verdict *v)
     double gain = reduction(row);
     if (strcmp(row->group, "objective") == 0) {
         v->claimed = gain;
+        v->pressure = 1 - row->cw_pressure_best / row->cw_pressure_parent;
     } else if (strcmp(row->group, "formulation") == 0 || strcmp(row->group, "stern") == 0) {
         v->models++;
         if (gain >= CONFIRM_SHARE * v->claimed)
@@ -74,6 +75,10 @@ static void state(struct verdict *v)
     }
     say(v, "The objective sees C_w fall by %.1f %%. ", 100 * v->claimed);
     state_models(v);
+    if (v->pressure < CONFIRM_SHARE * v->claimed)
+        say(v,
+            " The pressure integral of the same solutions does not see it: it changes by %+.1f %%.",
+            -100 * v->pressure);
     if (v->has_resolution)
         say(v, v->resolution ? " A finer solve keeps the gain."
                              : " A finer solve does not keep the gain.");
@@ -84,7 +89,7 @@ static void state(struct verdict *v)
 
 void verify_judge(const struct verification *rows, size_t n, struct verdict *v)
 {
-    *v = (struct verdict){.claimed = NAN};
+    *v = (struct verdict){.claimed = NAN, .pressure = NAN};
     for (size_t i = 0; i < n; i++)
         if (isfinite(rows[i].cw_parent) && isfinite(rows[i].cw_best))
             count(&rows[i], v);

@@ -28,6 +28,7 @@ struct verdict {
     bool speeds;       /* no increase at another speed */
     bool has_resolution, has_speeds;
     bool only_objective; /* no other model confirms even half */
+    double pressure;     /* reduction by the pressure integral of the same solutions; NAN: none */
     char statement[600];
 };
 void verify_judge(const struct verification *rows, size_t n, struct verdict *verdict);
