@@ -3,10 +3,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const headers[3] = {
-    "u,v,x,y,z", "u,v,x,y,z,xu,yu,zu,xv,yv,zv",
-    "u,v,x,y,z,xu,yu,zu,xv,yv,zv,xuu,yuu,zuu,xuv,yuv,zuv,xvv,yvv,"
-    "zvv"};
+#define POINT  "u,v,x,y,z"
+#define FIRST  ",xu,yu,zu,xv,yv,zv"
+#define SECOND ",xuu,yuu,zuu,xuv,yuv,zuv,xvv,yvv,zvv"
+
+static const char *const headers[3] = {POINT, (POINT FIRST), (POINT FIRST SECOND)};
 
 static void print_rows(size_t n, size_t triples, const double *uv, const double *values)
 {
