@@ -15,6 +15,7 @@
 #include <nurbs/fit.h>
 #include <nurbs/grid.h>
 #include <nurbs/integrals.h>
+#include <nurbs/invert.h>
 #include <nurbs/io.h>
 #include <nurbs/modify.h>
 #include <nurbs/patches.h>
