@@ -51,7 +51,8 @@ typedef struct galv_stream {
     double *scale;       /* per stored coordinate, square root of its weight; NULL: 1 */
     double *shift;       /* per stored coordinate, subtracted; NULL: none */
     double *raw;         /* block x stored */
-    double *rows;        /* block x active, scaled and shifted: what readers use */
+    double *packed;      /* block x active, scaled and shifted */
+    const double *rows;  /* what readers use: packed, or raw when that is the same */
     double *energy;      /* per row of the block, squared norm of `rows` */
     galv_progress progress;
     void *progress_context;
