@@ -1,6 +1,7 @@
 #include "cell.h"
 
 #include "error.h"
+#include "wave_math.h"
 
 #include <math.h>
 #include <nurbs/basis.h>
@@ -132,9 +133,8 @@ static double bernstein_sum(int p, const double *coefficient, double s)
 static double bracketed_root(int p, const double *coefficient, double lower, double upper)
 {
     double b[ELEMENT_SIDE], d[ELEMENT_SIDE];
-    double rising =
-        bernstein_sum(p, coefficient, upper) >= bernstein_sum(p, coefficient, lower) ? 1.0 : -1.0;
-    double s = 0.5 * (lower + upper);
+    double f0 = bernstein_sum(p, coefficient, lower), f1 = bernstein_sum(p, coefficient, upper);
+    double rising = f1 >= f0 ? 1.0 : -1.0, s = lower + (upper - lower) * f0 / (f0 - f1);
     for (int k = 0; k < 100; k++) {
         double f = 0.0, slope = 0.0;
         bernstein(p, s, b, d);
@@ -149,7 +149,7 @@ static double bracketed_root(int p, const double *coefficient, double lower, dou
         double next = s - f / slope;
         if (!(next > lower && next < upper))
             next = 0.5 * (lower + upper);
-        if (fabs(next - s) < 1e-15)
+        if (fabs(next - s) < 1e-14)
             return next;
         s = next;
     }
@@ -296,21 +296,6 @@ size_t domain_cut(const struct element *element, double x, struct domain pieces[
     return n;
 }
 
-void domain_map(const struct domain *domain, double a, double b, double local[2], double *jacobian)
-{
-    double width = domain->across[1] - domain->across[0];
-    double across = domain->across[0] + b * width, range[2] = {0.0, 1.0};
-    if (domain->part != DOMAIN_WHOLE) {
-        double line[ELEMENT_SIDE][4], derivative[ELEMENT_SIDE][4];
-        line_at(domain, across, line, derivative);
-        line_range(domain, (const double(*)[4])line, range);
-    }
-    local[domain->along] = range[0] + a * (range[1] - range[0]);
-    local[1 - domain->along] = across;
-    if (jacobian)
-        *jacobian = width * (range[1] - range[0]);
-}
-
 void cell_nodes(const struct domain *domain, const double rect[4], const int n[2],
                 const struct gauss *gauss, struct nodes *nodes)
 {
@@ -387,42 +372,44 @@ void point_node(const struct element *element, double s, double t, double weight
     bernstein(element->degree[1], t, nodes->bv + at * nodes->side[1], NULL);
 }
 
-static void domain_point(const struct domain *domain, double a, double b, double point[3])
+void domain_grid(const struct domain *domain, size_t na, const double *a, size_t nb,
+                 const double *b, double (*points)[3])
 {
-    double local[2];
-    domain_map(domain, a, b, local, NULL);
-    int p = domain->element->degree[0], q = domain->element->degree[1];
-    double bu[ELEMENT_SIDE], bv[ELEMENT_SIDE], h[4] = {0};
-    bernstein(p, local[0], bu, NULL);
-    bernstein(q, local[1], bv, NULL);
-    const double *net = domain->element->net;
-    for (int i = 0; i <= p; i++) {
-        double row[4] = {0};
-        for (int j = 0; j <= q; j++, net += 4)
-            for (int c = 0; c < 4; c++)
-                row[c] += bv[j] * net[c];
-        for (int c = 0; c < 4; c++)
-            h[c] += bu[i] * row[c];
+    int p = domain->element->degree[domain->along];
+    double width = domain->across[1] - domain->across[0];
+    for (size_t j = 0; j < nb; j++) {
+        double line[ELEMENT_SIDE][4], derivative[ELEMENT_SIDE][4], range[2];
+        line_at(domain, domain->across[0] + b[j] * width, line, derivative);
+        line_range(domain, (const double(*)[4])line, range);
+        for (size_t i = 0; i < na; i++) {
+            double basis[ELEMENT_SIDE], h[4] = {0}, *point = points[i * nb + j];
+            bernstein(p, range[0] + a[i] * (range[1] - range[0]), basis, NULL);
+            for (int k = 0; k <= p; k++)
+                for (int c = 0; c < 4; c++)
+                    h[c] += basis[k] * line[k][c];
+            for (int c = 0; c < 3; c++)
+                point[c] = h[c] / h[3];
+        }
     }
-    for (int c = 0; c < 3; c++)
-        point[c] = h[c] / h[3];
 }
 
 void cell_extent(const struct domain *domain, const double rect[4], double centre[3],
                  double half[2])
 {
-    double a = 0.5 * (rect[0] + rect[1]), b = 0.5 * (rect[2] + rect[3]), p[4][3];
-    domain_point(domain, a, b, centre);
-    domain_point(domain, rect[0], b, p[0]);
-    domain_point(domain, rect[1], b, p[1]);
-    domain_point(domain, a, rect[2], p[2]);
-    domain_point(domain, a, rect[3], p[3]);
+    const double a[3] = {rect[0], 0.5 * (rect[0] + rect[1]), rect[1]};
+    const double b[3] = {rect[2], 0.5 * (rect[2] + rect[3]), rect[3]};
+    double row[3][3], column[2][3];
+    domain_grid(domain, 3, a, 1, b + 1, row);
+    domain_grid(domain, 1, a + 1, 1, b, column);
+    domain_grid(domain, 1, a + 1, 1, b + 2, column + 1);
+    memcpy(centre, row[1], sizeof row[1]);
+    const double *end[2][2] = {{row[0], row[2]}, {column[0], column[1]}};
     for (int d = 0; d < 2; d++) {
         double longest = 0.0;
         for (int e = 0; e < 2; e++) {
             double sum = 0.0;
             for (int c = 0; c < 3; c++)
-                sum += (p[2 * d + e][c] - centre[c]) * (p[2 * d + e][c] - centre[c]);
+                sum += (end[d][e][c] - centre[c]) * (end[d][e][c] - centre[c]);
             longest = fmax(longest, sum);
         }
         half[d] = sqrt(longest);
@@ -457,6 +444,7 @@ void nodes_fold(const struct nodes *nodes, double *f)
     }
 }
 
+WAVE_MULTIVERSION
 void nodes_scatter(const struct nodes *nodes, size_t fields, const double *k, size_t stride,
                    double *rows, size_t row_stride)
 {

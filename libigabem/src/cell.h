@@ -41,8 +41,9 @@ size_t domain_cut(const struct element *element, double x, struct domain pieces[
 size_t edge_roots(const struct element *element, int fixed, int end, double x,
                   double roots[ELEMENT_SIDE]);
 
-/* Local parameters of (a, b) and the Jacobian d(s,t)/d(a,b) >= 0. */
-void domain_map(const struct domain *domain, double a, double b, double local[2], double *jacobian);
+/* Points of the domain on the grid a x b of its coordinates: fills points[na * nb], a slow. */
+void domain_grid(const struct domain *domain, size_t na, const double *a, size_t nb,
+                 const double *b, double (*points)[3]);
 
 /* Quadrature nodes with everything that an integral against the basis needs; nodes of one element
  * are consecutive and make a block. */

@@ -8,8 +8,27 @@
 #include <stdlib.h>
 #include <string.h>
 
+static void bernstein_cubic(double s, double *values, double *derivatives)
+{
+    double r = 1.0 - s, rr = r * r, ss = s * s, rs = r * s;
+    values[0] = rr * r;
+    values[1] = 3.0 * rr * s;
+    values[2] = 3.0 * r * ss;
+    values[3] = ss * s;
+    if (!derivatives)
+        return;
+    derivatives[0] = -3.0 * rr;
+    derivatives[1] = 3.0 * rr - 6.0 * rs;
+    derivatives[2] = 6.0 * rs - 3.0 * ss;
+    derivatives[3] = 3.0 * ss;
+}
+
 void bernstein(int p, double s, double *values, double *derivatives)
 {
+    if (p == 3) { /* nearly always */
+        bernstein_cubic(s, values, derivatives);
+        return;
+    }
     double r = 1.0 - s;
     values[0] = 1.0;
     if (derivatives)

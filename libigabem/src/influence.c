@@ -1,10 +1,14 @@
 #include "influence.h"
 
 #include "error.h"
+#include "quadrature_regular.h"
+#include "wave_math.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+enum { SHAPE_POINTS = 10 };
 
 /* Points of the classes above the least number that integrates the basis itself. */
 static const int class_points[REGULAR_CLASSES] = {0, 1, 2, 4};
@@ -14,12 +18,24 @@ static int least_points(const struct element *element, int direction)
     return element->degree[direction] / 2 + 1;
 }
 
-int regular_class(const struct element *element, int direction, int points)
+int regular_class(const struct influence *influence, size_t panel, const struct near_rule *rule,
+                  int class[2])
 {
-    int least = least_points(element, direction), k = 0;
-    while (k < REGULAR_CLASSES && least + class_points[k] < points)
-        k++;
-    return k;
+    const struct element *element = &influence->mesh->element[influence->mesh->panel[panel].first];
+    const double *centre = influence->centre[panel], *half = influence->half[panel];
+    double dx = centre[0] - rule->point[0], dy = centre[1] - rule->point[1],
+           dz = centre[2] - rule->point[2], distance = sqrt(dx * dx + dy * dy + dz * dz);
+    double kernel = near_scale(rule, 1.0, distance), scale = kernel * 4.0 * half[0] * half[1];
+    for (int d = 0; d < 2; d++) {
+        int points = regular_points(distance - half[1 - d], half[d], scale, rule->tolerance);
+        int least = least_points(element, d), k = class[d];
+        const double *error = influence->shape_error[panel][d];
+        while (k < REGULAR_CLASSES &&
+               (least + class_points[k] < points || error[k] * kernel > rule->tolerance))
+            k++;
+        class[d] = k;
+    }
+    return class[0] < REGULAR_CLASSES && class[1] < REGULAR_CLASSES;
 }
 
 const struct regular_rule *regular_rule_of(const struct influence *influence, size_t panel,
@@ -114,37 +130,101 @@ static void panel_nodes(const struct influence *influence, const struct panel *p
         }
 }
 
+/* Integrals of the basis functions by a tensor rule. */
+static void basis_integrals(const struct influence *influence, const struct panel *panel,
+                            const int points[2], struct nodes *nodes, double *f, double *integral)
+{
+    size_t m = functions(&influence->mesh->element[panel->first]);
+    nodes_clear(nodes);
+    panel_nodes(influence, panel, points, nodes);
+    memset(integral, 0, m * sizeof *integral);
+    if (nodes->failed)
+        return;
+    nodes_fold(nodes, f);
+    for (size_t i = 0; i < nodes->n; i++)
+        for (size_t a = 0; a < m; a++)
+            integral[a] += f[i * m + a];
+}
+
+static void measure_shape(struct influence *influence, size_t p, struct nodes *nodes, double *f)
+{
+    const struct panel *panel = &influence->mesh->panel[p];
+    const struct element *element = &influence->mesh->element[panel->first];
+    size_t m = functions(element);
+    double reference[ELEMENT_FUNCTIONS], integral[ELEMENT_FUNCTIONS];
+    const int fine[2] = {SHAPE_POINTS, SHAPE_POINTS};
+    basis_integrals(influence, panel, fine, nodes, f, reference);
+    for (int d = 0; d < 2; d++)
+        for (int k = 0; k < REGULAR_CLASSES; k++) {
+            int points[2] = {SHAPE_POINTS, SHAPE_POINTS};
+            points[d] = least_points(element, d) + class_points[k];
+            basis_integrals(influence, panel, points, nodes, f, integral);
+            double error = 0.0;
+            for (size_t a = 0; a < m; a++)
+                error = fmax(error, fabs(integral[a] - reference[a]));
+            influence->shape_error[p][d][k] = error;
+        }
+}
+
+static void fill_panel(struct influence *influence, size_t p, double *at, struct nodes *nodes)
+{
+    const struct panel *panel = &influence->mesh->panel[p];
+    const struct element *element = &influence->mesh->element[panel->first];
+    panel_extent(influence, p);
+    for (int k = 0; k < REGULAR_CLASSES * REGULAR_CLASSES; k++) {
+        struct regular_rule *rule =
+            &influence->regular[p * REGULAR_CLASSES * REGULAR_CLASSES + (size_t)k];
+        const int points[2] = {least_points(element, 0) + class_points[k / REGULAR_CLASSES],
+                               least_points(element, 1) + class_points[k % REGULAR_CLASSES]};
+        nodes_clear(nodes);
+        panel_nodes(influence, panel, points, nodes);
+        if (nodes->failed)
+            return;
+        size_t n = nodes->n;
+        *rule = (struct regular_rule){n, at, at + n, at + 2 * n, at + 3 * n};
+        memcpy(rule->x, nodes->x, n * sizeof *at);
+        memcpy(rule->y, nodes->y, n * sizeof *at);
+        memcpy(rule->z, nodes->z, n * sizeof *at);
+        nodes_fold(nodes, rule->f);
+        at += n * (3 + functions(element));
+    }
+}
+
+static size_t panel_doubles(const struct mesh *mesh, size_t p)
+{
+    const struct element *element = &mesh->element[mesh->panel[p].first];
+    return class_nodes(element) * (3 + functions(element));
+}
+
 static igabem_status fill_regular(struct influence *influence)
 {
     const struct mesh *mesh = influence->mesh;
-    struct nodes nodes;
-    nodes_init(&nodes, mesh);
-    double *at = influence->storage;
-    for (size_t p = 0; p < mesh->panels; p++) {
-        const struct element *element = &mesh->element[mesh->panel[p].first];
-        panel_extent(influence, p);
-        for (int k = 0; k < REGULAR_CLASSES * REGULAR_CLASSES; k++) {
-            struct regular_rule *rule =
-                &influence->regular[p * REGULAR_CLASSES * REGULAR_CLASSES + (size_t)k];
-            const int points[2] = {least_points(element, 0) + class_points[k / REGULAR_CLASSES],
-                                   least_points(element, 1) + class_points[k % REGULAR_CLASSES]};
-            nodes_clear(&nodes);
-            panel_nodes(influence, &mesh->panel[p], points, &nodes);
-            if (nodes.failed) {
-                nodes_free(&nodes);
-                return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for quadrature nodes");
-            }
-            size_t n = nodes.n;
-            *rule = (struct regular_rule){n, at, at + n, at + 2 * n, at + 3 * n};
-            memcpy(rule->x, nodes.x, n * sizeof *at);
-            memcpy(rule->y, nodes.y, n * sizeof *at);
-            memcpy(rule->z, nodes.z, n * sizeof *at);
-            nodes_fold(&nodes, rule->f);
-            at += n * (3 + functions(element));
-        }
+    size_t *offset = malloc((mesh->panels + 1) * sizeof *offset);
+    int failed = !offset;
+    for (size_t p = 0, at = 0; p < mesh->panels && !failed; p++) {
+        offset[p] = at;
+        at += panel_doubles(mesh, p);
     }
-    nodes_free(&nodes);
-    return IGABEM_OK;
+#pragma omp parallel num_threads(influence->threads) reduction(| : failed)
+    {
+        struct nodes nodes;
+        nodes_init(&nodes, mesh);
+        size_t most = (size_t)(SHAPE_POINTS * GAUSS_MAX) * ELEMENT_FUNCTIONS;
+        double *f = malloc(most * sizeof *f);
+        failed |= !f;
+#pragma omp for schedule(dynamic, 8)
+        for (size_t p = 0; p < mesh->panels; p++) {
+            if (failed)
+                continue;
+            fill_panel(influence, p, influence->storage + offset[p], &nodes);
+            measure_shape(influence, p, &nodes, f);
+            failed |= nodes.failed;
+        }
+        nodes_free(&nodes);
+        free(f);
+    }
+    free(offset);
+    return failed ? igabem_fail(IGABEM_ERROR_MEMORY, "no memory for quadrature nodes") : IGABEM_OK;
 }
 
 igabem_status influence_create(const struct density *density, const struct mesh *mesh,
@@ -156,23 +236,21 @@ igabem_status influence_create(const struct density *density, const struct mesh 
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for quadrature nodes");
     influence->density = density;
     influence->mesh = mesh;
-    influence->tolerance = 0.1 * tolerance;
-    influence->wave_tolerance = tolerance;
+    influence->tolerance = tolerance;
     influence->threads = threads;
     size_t doubles = 0;
-    for (size_t p = 0; p < mesh->panels; p++) {
-        const struct element *element = &mesh->element[mesh->panel[p].first];
-        doubles += class_nodes(element) * (3 + functions(element));
-    }
+    for (size_t p = 0; p < mesh->panels; p++)
+        doubles += panel_doubles(mesh, p);
     influence->centre = malloc(mesh->panels * sizeof *influence->centre);
     influence->half = malloc(mesh->panels * sizeof *influence->half);
     influence->box = malloc(mesh->panels * sizeof *influence->box);
+    influence->shape_error = malloc(mesh->panels * sizeof *influence->shape_error);
     influence->regular =
         malloc(mesh->panels * REGULAR_CLASSES * REGULAR_CLASSES * sizeof *influence->regular);
     influence->storage = malloc(doubles * sizeof *influence->storage);
     igabem_status status = gauss_fill(&influence->gauss);
     if (!influence->centre || !influence->half || !influence->box || !influence->regular ||
-        !influence->storage)
+        !influence->shape_error || !influence->storage)
         status = igabem_fail(IGABEM_ERROR_MEMORY, "no memory for quadrature nodes of %zu panels",
                              mesh->panels);
     if (status == IGABEM_OK)
@@ -192,11 +270,13 @@ void influence_free(struct influence *influence)
     free(influence->centre);
     free(influence->half);
     free(influence->box);
+    free(influence->shape_error);
     free(influence->regular);
     free(influence->storage);
     free(influence);
 }
 
+WAVE_MULTIVERSION
 void regular_scatter(const struct element *element, const struct regular_rule *rule, size_t fields,
                      const double *k, size_t stride, double *rows, size_t row_stride)
 {

@@ -20,22 +20,25 @@ struct influence {
     const struct density *density;
     const struct mesh *mesh;
     struct gauss gauss;
-    double tolerance;                           /* absolute, of one panel's influence */
-    double wave_tolerance;                      /* relative, of the wave part */
+    double tolerance; /* absolute, of one panel's influence; relative, of the wave part */
     double (*centre)[3], (*half)[2], (*box)[2]; /* of the panels; box: bounds of x */
     struct regular_rule *regular;               /* [panel][class along u][class along v] */
+    double (*shape_error)[2][REGULAR_CLASSES]; /* of the panels: largest error, m^2, of the integral
+                                                  of a basis function by the rule of a class along
+                                                  one direction */
     double *storage;
     int threads;
 };
 
-/* tolerance: of the resistance; errors of a few dozen panels near a point add up, so each gets a
- * tenth of it. */
 igabem_status influence_create(const struct density *density, const struct mesh *mesh,
                                double tolerance, int threads, struct influence **influence);
 void influence_free(struct influence *influence);
 
-/* Class (index of the rule) for a number of points, REGULAR_CLASSES if none is fine enough. */
-int regular_class(const struct element *element, int direction, int points);
+/* Raises class[2] to the rules that a panel needs to be seen from the rule's point, or returns 0 if
+ * none is fine enough: the kernel is too close to its singularity, or the panel's shape too uneven.
+ */
+int regular_class(const struct influence *influence, size_t panel, const struct near_rule *rule,
+                  int class[2]);
 
 const struct regular_rule *regular_rule_of(const struct influence *influence, size_t panel,
                                            const int class[2]);

@@ -2,7 +2,6 @@
 #include "error.h"
 #include "influence.h"
 #include "quadrature_near.h"
-#include "quadrature_regular.h"
 
 #include <igabem/kelvin.h>
 #include <math.h>
@@ -38,25 +37,15 @@ static int reserve(struct local_work *work, size_t n)
 
 /* Rule for a panel that all images see from far enough, NULL if there is none. */
 static const struct regular_rule *far_rule(const struct influence *influence, size_t p,
-                                           const struct near_rule *rule, const double image[2][3],
+                                           struct near_rule *rule, const double image[2][3],
                                            int images)
 {
-    const struct element *element = &influence->mesh->element[influence->mesh->panel[p].first];
-    const double *centre = influence->centre[p], *half = influence->half[p];
     int class[2] = {0, 0};
     for (int i = 0; i < images; i++) {
-        double dx = centre[0] - image[i][0], dy = centre[1] - image[i][1],
-               dz = centre[2] - image[i][2], distance = sqrt(dx * dx + dy * dy + dz * dz);
-        double scale = near_scale(rule, 4.0 * half[0] * half[1], distance);
-        for (int d = 0; d < 2; d++) {
-            int points =
-                regular_points(distance - half[1 - d], half[d], scale, influence->tolerance);
-            int c = regular_class(element, d, points);
-            class[d] = c > class[d] ? c : class[d];
-        }
+        memcpy(rule->point, image[i], sizeof rule->point);
+        if (!regular_class(influence, p, rule, class))
+            return NULL;
     }
-    if (class[0] == REGULAR_CLASSES || class[1] == REGULAR_CLASSES)
-        return NULL;
     return regular_rule_of(influence, p, class);
 }
 

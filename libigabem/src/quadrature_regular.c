@@ -11,5 +11,5 @@ int regular_points(double distance, double half, double scale, double tolerance)
     if (scale <= tolerance)
         return 1;
     double rho = z + sqrt(z * z - 1.0);
-    return (int)ceil(0.5 * log(scale / tolerance) / log(rho));
+    return (int)ceil(0.5 * log(scale / tolerance) / log(rho)) + 1;
 }

@@ -6,7 +6,8 @@
  * singularity, so that scale times the relative error of the rule stays below the tolerance. The
  * singularity of the kernel lies outside the Bernstein ellipse of parameter rho = z + sqrt(z^2-1),
  * z = distance/half, hence the error rho^-2n (Trefethen, Approximation Theory and Approximation
- * Practice, theorem 19.3). Returns INT_MAX when the singularity is within the length. */
+ * Practice, theorem 19.3); one more point is for the density and the shape that multiply the
+ * kernel. Returns INT_MAX when the singularity is within the length. */
 int regular_points(double distance, double half, double scale, double tolerance);
 
 #endif

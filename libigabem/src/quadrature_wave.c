@@ -22,16 +22,6 @@ static int points(double phase, double tolerance)
     return n < 2 ? 3 : n + 1;
 }
 
-static void map(const struct domain *domain, double a, double b, double point[3])
-{
-    double local[2];
-    struct jet jet;
-    domain_map(domain, a, b, local, NULL);
-    element_jet(domain->element, local[0], local[1], &jet);
-    for (int c = 0; c < 3; c++)
-        point[c] = jet.s[c];
-}
-
 /* Largest change of the exponent between two points at angle t. */
 static double exponent(const struct wave_rule *rule, double t, const double a[3], const double b[3])
 {
@@ -43,13 +33,12 @@ static double exponent(const struct wave_rule *rule, double t, const double a[3]
 static void divide(const struct wave_rule *rule, const struct domain *domain, const double rect[4],
                    int depth, struct nodes *nodes)
 {
+    const double a[3] = {rect[0], 0.5 * (rect[0] + rect[1]), rect[1]};
+    const double b[3] = {rect[2], 0.5 * (rect[2] + rect[3]), rect[3]};
     double p[3][3][3], top = -INFINITY, change[2] = {0.0, 0.0};
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) {
-            map(domain, rect[0] + 0.5 * i * (rect[1] - rect[0]),
-                rect[2] + 0.5 * j * (rect[3] - rect[2]), p[i][j]);
-            top = fmax(top, p[i][j][2]);
-        }
+    domain_grid(domain, 3, a, 3, b, p[0]);
+    for (int i = 0; i < 9; i++)
+        top = fmax(top, p[i / 3][i % 3][2]);
     double t = wave_reach(rule, -top);
     for (int i = 0; i < 3; i++) {
         double u = exponent(rule, t, p[0][i], p[1][i]) + exponent(rule, t, p[1][i], p[2][i]);

@@ -2,7 +2,6 @@
 #include "error.h"
 #include "influence.h"
 #include "quadrature_near.h"
-#include "quadrature_regular.h"
 #include "quadrature_singular.h"
 #include "wave_math.h"
 
@@ -96,24 +95,15 @@ struct far_view {
 static struct far_view look(const struct influence *influence, size_t p, const double image[4][3],
                             int images)
 {
-    const struct element *element = &influence->mesh->element[influence->mesh->panel[p].first];
-    const double *centre = influence->centre[p], *half = influence->half[p];
-    const struct near_rule rule = {.tolerance = influence->tolerance};
     struct far_view view = {{0, 0}, 0};
     for (int i = 0; i < images; i++) {
-        double dx = centre[0] - image[i][0], dy = centre[1] - image[i][1],
-               dz = centre[2] - image[i][2], distance = sqrt(dx * dx + dy * dy + dz * dz);
-        double scale = near_scale(&rule, 4.0 * half[0] * half[1], distance);
-        int class[2];
-        for (int d = 0; d < 2; d++)
-            class[d] = regular_class(
-                element, d,
-                regular_points(distance - half[1 - d], half[d], scale, influence->tolerance));
-        if (class[0] == REGULAR_CLASSES || class[1] == REGULAR_CLASSES)
+        const struct near_rule rule = {.point = {image[i][0], image[i][1], image[i][2]},
+                                       .tolerance = influence->tolerance};
+        int class[2] = {view.class[0], view.class[1]};
+        if (!regular_class(influence, p, &rule, class))
             continue;
         view.images |= 1u << i;
-        for (int d = 0; d < 2; d++)
-            view.class[d] = class[d] > view.class[d] ? class[d] : view.class[d];
+        memcpy(view.class, class, sizeof class);
     }
     return view;
 }

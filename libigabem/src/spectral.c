@@ -495,7 +495,7 @@ igabem_status influence_wave(const struct influence *influence, const struct lin
                         .k0 = k0,
                         .filters = filters,
                         .cutoff = cutoff};
-    wave.rule.tolerance = influence->wave_tolerance;
+    wave.rule.tolerance = influence->tolerance;
     igabem_status status = make_spectrum(&wave);
     if (status == IGABEM_OK)
         status = make_sources(&wave);
