@@ -13,6 +13,7 @@
 #include <nurbs/basis.h>
 #include <nurbs/curve.h>
 #include <nurbs/fit.h>
+#include <nurbs/geometry.h>
 #include <nurbs/grid.h>
 #include <nurbs/integrals.h>
 #include <nurbs/invert.h>
