@@ -207,6 +207,124 @@ static void surface_fit_restores_a_spline(void)
     hull5415_free(&hull);
 }
 
+/* Scattered points of a spline, more than it has control points, give it back. */
+static void scattered_points_restore_a_spline(void)
+{
+    enum { N = 900, SIZE = 8 };
+    static double uv[2 * N], p[3 * N];
+    double knots[SIZE + 4], net[3 * SIZE * SIZE];
+    const int degree[2] = {3, 3};
+    const size_t size[2] = {SIZE, SIZE};
+    nurbs_surface *spline, *fitted;
+    uniform_knots(3, SIZE, knots);
+    for (size_t k = 0; k < 3 * SIZE * SIZE; k++)
+        net[k] = sin(1.7 * (double)k) + (double)(k % 3);
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_create(degree, size, knots, knots, net, NULL, &spline),
+                          NURBS_OK);
+    for (size_t k = 0; k < N; k++) { /* an additive sequence fills the square */
+        uv[2 * k] = fmod(0.5 + 0.7548776662466927 * (double)k, 1);
+        uv[2 * k + 1] = fmod(0.5 + 0.5698402909980532 * (double)k, 1);
+    }
+    CU_ASSERT_EQUAL(nurbs_surface_eval(spline, 0, N, uv, p), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(
+        nurbs_surface_fit_points(degree, size, knots, knots, N, p, uv, 0, &fitted), NURBS_OK);
+    CHECK_CLOSE(surface_distance(spline, fitted, 41), 0, 1e-9);
+    nurbs_surface_free(fitted);
+    /* Too few points: refused without smoothing, determined with it. */
+    CU_ASSERT_EQUAL(nurbs_surface_fit_points(degree, size, knots, knots, 30, p, uv, 0, &fitted),
+                    NURBS_ERROR_NUMERIC);
+    CU_ASSERT_PTR_NULL(fitted);
+    CU_ASSERT_EQUAL(nurbs_surface_fit_points(degree, size, knots, knots, 30, p, uv, 1e-6, &fitted),
+                    NURBS_OK);
+    nurbs_surface_free(fitted);
+    uv[1] = 1.5;
+    CU_ASSERT_EQUAL(nurbs_surface_fit_points(degree, size, knots, knots, N, p, uv, 0, &fitted),
+                    NURBS_ERROR_ARGUMENT);
+    nurbs_surface_free(spline);
+}
+
+/* Smoothing leaves planes alone and, when strong, turns anything into the best plane. */
+static void smoothing_prefers_planes(void)
+{
+    enum { N = 400, SIZE = 7 };
+    double uv[2 * N], p[3 * N], knots[SIZE + 4], q[3];
+    const int degree[2] = {3, 2};
+    const size_t size[2] = {SIZE, SIZE};
+    double knots_v[SIZE + 3];
+    nurbs_surface *fitted;
+    uniform_knots(3, SIZE, knots);
+    uniform_knots(2, SIZE, knots_v);
+    for (size_t k = 0; k < N; k++) {
+        double u = ((double)(k / 20) + 0.5) / 20, v = ((double)(k % 20) + 0.5) / 20;
+        uv[2 * k] = u;
+        uv[2 * k + 1] = v;
+        p[3 * k] = 2 * u - v;
+        p[3 * k + 1] = 1 + u + v;
+        p[3 * k + 2] = (k % 2 ? 0.1 : -0.1) + 3 * v; /* rows of opposite noise */
+    }
+    CU_ASSERT_EQUAL_FATAL(
+        nurbs_surface_fit_points(degree, size, knots, knots_v, N, p, uv, 10, &fitted), NURBS_OK);
+    for (int k = 0; k <= 20; k++) {
+        double at[2] = {k / 20.0, 1 - k / 20.0};
+        CU_ASSERT_EQUAL(nurbs_surface_eval(fitted, 0, 1, at, q), NURBS_OK);
+        CHECK_CLOSE(q[0], 2 * at[0] - at[1], 1e-8);
+        CHECK_CLOSE(q[1], 2, 1e-8);
+        CHECK_CLOSE(q[2], 3 * at[1], 0.03);
+    }
+    nurbs_surface_free(fitted);
+}
+
+static nurbs_curve *cubic(const double points[12])
+{
+    static const double knots[8] = {2, 2, 2, 2, 5, 5, 5, 5};
+    nurbs_curve *curve;
+    CU_ASSERT_EQUAL_FATAL(nurbs_curve_create(3, 4, knots, points, NULL, &curve), NURBS_OK);
+    return curve;
+}
+
+/* Edges of different degrees and knots come back exactly, and so does a bilinear surface. */
+static void coons_keeps_its_edges(void)
+{
+    const double a[12] = {0, 0, 0, 1, 0, 1, 2, 0, -1, 3, 0, 0},
+                 b[12] = {0, 2, 1, 1, 3, 1, 2, 2, 2, 3, 2, 0}, c[9] = {0, 0, 0, -1, 1, 2, 0, 2, 1},
+                 d[12] = {3, 0, 0, 3, 0.5, 1, 4, 1, 1, 3, 2, 0}, quadratic[6] = {0, 0, 0, 1, 1, 1},
+                 split[7] = {0, 0, 0, 0.3, 1, 1, 1};
+    nurbs_curve *u[2] = {cubic(a), cubic(b)}, *v[2];
+    CU_ASSERT_EQUAL_FATAL(nurbs_curve_create(2, 3, quadratic, c, NULL, &v[0]), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_curve_create(2, 4, split, d, NULL, &v[1]), NURBS_OK);
+    nurbs_surface *patch;
+    nurbs_status status = nurbs_coons(u[0], u[1], v[0], v[1], &patch);
+    if (status != NURBS_OK)
+        fprintf(stderr, "%s\n", nurbs_last_error());
+    CU_ASSERT_EQUAL_FATAL(status, NURBS_OK);
+    for (int e = 0; e < 4; e++)
+        for (int k = 0; k <= 30; k++) {
+            double t = k / 30.0, uv[2] = {e < 2 ? t : e - 2, e < 2 ? e : t},
+                   s = e < 2 ? fmin(2 + 3 * t, 5) : t, p[3], q[3];
+            CU_ASSERT_EQUAL(nurbs_surface_eval(patch, 0, 1, uv, p), NURBS_OK);
+            CU_ASSERT_EQUAL(nurbs_curve_eval(e < 2 ? u[e] : v[e - 2], 0, 1, &s, q), NURBS_OK);
+            for (int x = 0; x < 3; x++)
+                CHECK_CLOSE(p[x], q[x], 1e-14);
+        }
+    nurbs_surface_free(patch);
+    CU_ASSERT_EQUAL(nurbs_coons(u[1], u[0], v[0], v[1], &patch), NURBS_ERROR_GEOMETRY);
+    CU_ASSERT_PTR_NOT_NULL(strstr(nurbs_last_error(), "corner"));
+    CU_ASSERT_PTR_NULL(patch);
+    CU_ASSERT_EQUAL_FATAL(nurbs_ruled(u[0], u[1], &patch), NURBS_OK);
+    const double uv[2] = {0.4, 0.25}, s = 2 + 3 * 0.4;
+    double p[3], q[3], r[3];
+    CU_ASSERT_EQUAL(nurbs_surface_eval(patch, 0, 1, uv, p), NURBS_OK);
+    CU_ASSERT_EQUAL(nurbs_curve_eval(u[0], 0, 1, &s, q), NURBS_OK);
+    CU_ASSERT_EQUAL(nurbs_curve_eval(u[1], 0, 1, &s, r), NURBS_OK);
+    for (int x = 0; x < 3; x++)
+        CHECK_CLOSE(p[x], 0.75 * q[x] + 0.25 * r[x], 1e-14);
+    nurbs_surface_free(patch);
+    for (int k = 0; k < 2; k++) {
+        nurbs_curve_free(u[k]);
+        nurbs_curve_free(v[k]);
+    }
+}
+
 static const struct check_case cases[] = {
     {"parametrizations", parametrizations},
     {"coincident points", coincident_points},
@@ -217,6 +335,9 @@ static const struct check_case cases[] = {
     {"least-squares residual is orthogonal", least_squares_residual_is_orthogonal},
     {"least squares refuses", least_squares_refuses},
     {"surface fit restores a spline", surface_fit_restores_a_spline},
+    {"scattered points restore a spline", scattered_points_restore_a_spline},
+    {"smoothing prefers planes", smoothing_prefers_planes},
+    {"coons keeps its edges", coons_keeps_its_edges},
 };
 
 CHECK_MAIN("nurbs fit", cases)

@@ -175,6 +175,76 @@ static void refuses_what_is_no_wetted_half_hull(void)
     nurbs_surface_free(hull);
 }
 
+static void moments_of(const nurbs_surface *surface, double values[5], double *gradient)
+{
+    nurbs_moments m;
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_moments(surface, &m, gradient), NURBS_OK);
+    const double all[5] = {m.area, m.volume, m.moment[0], m.moment[1], m.moment[2]};
+    memcpy(values, all, sizeof all);
+}
+
+/* Area, volume and moments are homogeneous of degree 2, 3 and 4 in the control points (Euler), and
+ * their derivatives agree with central differences. */
+static void gradients_of_moments(void)
+{
+    nurbs_surface *body[2];
+    CU_ASSERT_EQUAL_FATAL(nurbs_make_ellipsoid(2, 0.6, 0.5, 0.3, &body[0]), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_make_wigley(2, 0.4, 0.3, &body[1]), NURBS_OK);
+    static const double power[5] = {2, 3, 4, 4, 4};
+    for (int k = 0; k < 2; k++) {
+        const int degree[2] = {2, 2};
+        const size_t size[2] = {nurbs_surface_size(body[k], 0), nurbs_surface_size(body[k], 1)};
+        size_t n = 3 * size[0] * size[1];
+        double *gradient = malloc(6 * n * sizeof *gradient), *p = gradient + 5 * n, values[5];
+        moments_of(body[k], values, gradient);
+        memcpy(p, nurbs_surface_points(body[k]), n * sizeof *p);
+        for (size_t m = 0; m < 5; m++) {
+            double sum = 0, scale = 0;
+            for (size_t i = 0; i < n; i++) {
+                sum += gradient[m * n + i] * p[i];
+                scale += fabs(gradient[m * n + i] * p[i]);
+            }
+            CHECK_CLOSE(sum, power[m] * values[m], 1e-12 * scale + 1e-14);
+        }
+        for (size_t i = 1; i < n; i += 7) {
+            double low[5], high[5], before = p[i], step = 1e-5;
+            for (int side = -1; side <= 1; side += 2) {
+                nurbs_surface *moved;
+                p[i] = before + side * step;
+                CU_ASSERT_EQUAL_FATAL(nurbs_surface_create(degree, size,
+                                                           nurbs_surface_knots(body[k], 0),
+                                                           nurbs_surface_knots(body[k], 1), p,
+                                                           nurbs_surface_weights(body[k]), &moved),
+                                      NURBS_OK);
+                moments_of(moved, side < 0 ? low : high, NULL);
+                nurbs_surface_free(moved);
+            }
+            p[i] = before;
+            for (size_t m = 1; m < 5; m++) /* polynomials in the points */
+                CHECK_CLOSE((high[m] - low[m]) / (2 * step), gradient[m * n + i], 1e-9);
+            if (k == 1) /* the area has no derivative where the ellipsoid collapses */
+                CHECK_CLOSE((high[0] - low[0]) / (2 * step), gradient[i], 1e-7);
+        }
+        free(gradient);
+        nurbs_surface_free(body[k]);
+    }
+}
+
+/* Moments and hydrostatics are two routes to the same numbers. */
+static void moments_agree_with_hydrostatics(void)
+{
+    nurbs_surface *hull;
+    nurbs_moments m;
+    CU_ASSERT_EQUAL_FATAL(nurbs_make_wigley(2.5, 0.25, 0.16, &hull), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_moments(hull, &m, NULL), NURBS_OK);
+    nurbs_hydrostatics h = compute(hull, 0);
+    CHECK_RELATIVE(2 * m.volume, h.volume, 1e-13);
+    CHECK_RELATIVE(m.moment[2] / m.volume, h.centroid[2], 1e-12);
+    /* int y dV over half the hull: int y^2/2 dx dz = B^2/8 L T (8/15)^2. */
+    CHECK_RELATIVE(m.moment[1], 0.25 * 0.25 / 8 * 2.5 * 0.16 * 64.0 / 225, 1e-12);
+    nurbs_surface_free(hull);
+}
+
 static const struct check_case cases[] = {
     {"wigley in closed form", wigley_in_closed_form},
     {"spheroid in closed form", spheroid_in_closed_form},
@@ -182,6 +252,8 @@ static const struct check_case cases[] = {
     {"sphere cut in halves", sphere_cut_in_halves},
     {"DTMB 5415 against panels", dtmb5415_against_panels},
     {"two patches are one hull", two_patches_are_one_hull},
+    {"gradients of moments", gradients_of_moments},
+    {"moments agree with hydrostatics", moments_agree_with_hydrostatics},
     {"refuses what is no wetted half hull", refuses_what_is_no_wetted_half_hull},
 };
 

@@ -39,6 +39,21 @@ NURBS_API nurbs_status nurbs_hydrostatics_compute(size_t n, const nurbs_surface 
 NURBS_API nurbs_status nurbs_surface_area(const nurbs_surface *surface, double *area,
                                           double *error);
 
+/** Integrals over one patch with its own orientation, n = Su x Sv. */
+typedef struct nurbs_moments {
+    double area;      /**< m^2 */
+    double volume;    /**< int y n_y dS, m^3: half the displacement of a wetted half hull whose normal
+                           points outwards */
+    double moment[3]; /**< int (x, y/2, z) y n_y dS, m^4: the moments of that volume */
+} nurbs_moments;
+
+/** Fills moments and, if gradient is not NULL, gradient[5][3 * size[0] * size[1]]: the derivatives
+ * of area, volume and the three moments with respect to the coordinates of the control points, in
+ * the order of nurbs_surface_points(). Same quadrature for both, so the gradient is exact for the
+ * sums. (The derivative of a point is the row of nurbs_surface_basis().) */
+NURBS_API nurbs_status nurbs_surface_moments(const nurbs_surface *surface, nurbs_moments *moments,
+                                             double *gradient);
+
 #ifdef __cplusplus
 }
 #endif
