@@ -36,3 +36,15 @@ igabem_status kelvin_check_domain(const char *what, size_t n, const double *X, c
             return complain(what, i, X[i], Y[i], Z[i]);
     return IGABEM_OK;
 }
+
+igabem_status kelvin_check_wave_domain(const char *what, size_t n, const double *X, const double *Y,
+                                       const double *Z)
+{
+    igabem_status status = kelvin_check_domain(what, n, X, Y, Z);
+    for (size_t i = 0; status == IGABEM_OK && i < n; i++)
+        if (fabs(X[i]) > 1e9 || fabs(Y[i]) > 1e9 || Z[i] < -1e9)
+            status = igabem_fail(IGABEM_ERROR_ARGUMENT,
+                                 "%s: point %zu is (%g, %g, %g), expected within 1e9", what, i,
+                                 X[i], Y[i], Z[i]);
+    return status;
+}

@@ -9,4 +9,8 @@
 igabem_status kelvin_check_domain(const char *what, size_t n, const double *X, const double *Y,
                                   const double *Z);
 
+/* The same and |X|, |Y|, |Z| <= 1e9: beyond, the phase of W is lost to rounding. */
+igabem_status kelvin_check_wave_domain(const char *what, size_t n, const double *X, const double *Y,
+                                       const double *Z);
+
 #endif

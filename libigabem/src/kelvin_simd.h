@@ -19,6 +19,6 @@
 enum { KELVIN_LANES = 8 };
 
 typedef double kelvin_vec __attribute__((vector_size(64)));
-typedef int64_t kelvin_ivec __attribute__((vector_size(64)));
+typedef uint64_t kelvin_bits __attribute__((vector_size(64)));
 
 #endif
