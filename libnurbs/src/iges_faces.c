@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { SAMPLES = 9, MAX_DEPTH = 16 };
+enum { SAMPLES = 9, MAX_DEPTH = 16, MAX_CURVES = 100000 };
 
 int iges_is_face(int type)
 {
@@ -47,9 +47,14 @@ static nurbs_status check_curve(iges_file *file, size_t curve, int depth, loop_c
     int type = file->entity[curve].type;
     if (type == 126 || type == 110 || type == 100)
         return check_simple(file, curve, loops);
-    if (type != 102 || depth == MAX_DEPTH)
+    if (type != 102)
         return NURBS_OK;
-    long parts;
+    /* A composite inside itself would never end. */
+    if (depth == MAX_DEPTH || loops->curves > MAX_CURVES)
+        return nurbs_fail(NURBS_ERROR_FORMAT,
+                          "%s: composite curve at D%zu: composites inside each other without end",
+                          file->path, iges_number(curve));
+    long parts = 0;
     nurbs_status status = iges_integer(file, curve, 0, 0, &parts);
     for (long k = 0; k < parts && status == NURBS_OK; k++) {
         size_t part;

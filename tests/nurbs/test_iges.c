@@ -250,6 +250,31 @@ static void refuses_damaged_files(void)
     free(text);
 }
 
+/* A composite curve that contains itself, twice: refused, and at once. */
+static void refuses_endless_composites(void)
+{
+    size_t length = 0, n;
+    char *text = read_text(DATA("curves"), &length), *at = strstr(text, "102,2,9,11;");
+    nurbs_curve **curves;
+    CU_ASSERT_PTR_NOT_NULL_FATAL(at);
+    memcpy(at, "102,2,7,07;", 11);
+    const char *path = write_scratch("endless.igs", text);
+    CU_ASSERT_EQUAL(nurbs_curves_read_iges(path, &n, &curves), NURBS_ERROR_FORMAT);
+    CU_ASSERT_PTR_NOT_NULL(strstr(nurbs_last_error(), "without end"));
+    unlink(path);
+    free(text);
+    text = read_text(DATA("trimmed"), &length);
+    at = strstr(text, "102,4,9,11,13,15;");
+    CU_ASSERT_PTR_NOT_NULL_FATAL(at);
+    memcpy(at, "102,4,7,07,07,07;", 17);
+    nurbs_patches *patches;
+    path = write_scratch("endless.igs", text);
+    CU_ASSERT_EQUAL(nurbs_patches_read_iges(path, &patches, NULL, 0), NURBS_ERROR_FORMAT);
+    CU_ASSERT_PTR_NOT_NULL(strstr(nurbs_last_error(), "without end"));
+    unlink(path);
+    free(text);
+}
+
 /* Whatever is cut off or overwritten: a status, never a crash. */
 static void survives_cuts_and_noise(void)
 {
@@ -286,6 +311,44 @@ static void survives_cuts_and_noise(void)
     free(text);
 }
 
+/* Centimetres: a transformed quarter circle, a full circle, and a chain of a line and a parabola;
+ * the line that only helps is left out. */
+static void reads_curves(void)
+{
+    size_t n;
+    nurbs_curve **curves;
+    nurbs_status status = nurbs_curves_read_iges(DATA("curves"), &n, &curves);
+    if (status != NURBS_OK)
+        fprintf(stderr, "%s\n", nurbs_last_error());
+    CU_ASSERT_EQUAL_FATAL(status, NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(n, 4);
+    for (int k = 0; k <= 40; k++) {
+        double t = k / 40.0, p[3];
+        /* In its plane z = 0.5: centre (1,2), radius 3; turned so that (x,y,z) -> (x,-z,y+7). */
+        CU_ASSERT_EQUAL(nurbs_curve_eval(curves[0], 0, 1, &t, p), NURBS_OK);
+        CHECK_CLOSE(hypot(p[0] - 0.01, p[2] - 0.09), 0.03, 1e-16);
+        CHECK_CLOSE(p[1], -0.005, 1e-17);
+        CU_ASSERT(p[0] >= 0.01 - 1e-15 && p[2] >= 0.09 - 1e-15); /* the first quarter */
+        CU_ASSERT_EQUAL(nurbs_curve_eval(curves[1], 0, 1, &t, p), NURBS_OK);
+        CHECK_CLOSE(hypot(p[0], p[1]), 0.02, 1e-16);
+    }
+    double ends[2] = {0, 1}, half = 0.5, p[6];
+    CU_ASSERT_EQUAL(nurbs_curve_eval(curves[1], 0, 2, ends, p), NURBS_OK);
+    CHECK_CLOSE(p[0], p[3], 1e-16);
+    CU_ASSERT_EQUAL(nurbs_curve_eval(curves[1], 0, 1, &half, p), NURBS_OK);
+    CHECK_CLOSE(p[0], -0.02, 1e-16);
+    CU_ASSERT_EQUAL(nurbs_curve_degree(curves[2]), 1);
+    CU_ASSERT_EQUAL(nurbs_curve_eval(curves[3], 0, 1, &half, p), NURBS_OK);
+    CHECK_CLOSE(p[0], 0.02, 1e-16);
+    CHECK_CLOSE(p[1], 0.005, 1e-16);
+    nurbs_curves_free(n, curves);
+    CU_ASSERT_EQUAL(nurbs_curves_read_iges(DATA("plain"), &n, &curves), NURBS_OK);
+    CU_ASSERT_EQUAL(n, 0);
+    nurbs_curves_free(n, curves);
+    CU_ASSERT_EQUAL(nurbs_curves_read_iges("nothing.igs", &n, &curves), NURBS_ERROR_FILE);
+    CU_ASSERT_PTR_NULL(curves);
+}
+
 static const struct check_case cases[] = {
     {"pitfalls give the same patch", pitfalls_give_the_same_patch},
     {"cuts to the stated range", cuts_to_the_stated_range},
@@ -293,7 +356,9 @@ static const struct check_case cases[] = {
     {"clamps periodic knots", clamps_periodic_knots},
     {"writing and reading restores every bit", writing_and_reading_restores_every_bit},
     {"written records are well formed", written_records_are_well_formed},
+    {"reads curves", reads_curves},
     {"refuses damaged files", refuses_damaged_files},
+    {"refuses endless composites", refuses_endless_composites},
     {"survives cuts and noise", survives_cuts_and_noise},
 };
 

@@ -6,6 +6,7 @@
 #ifndef NURBS_IO_H
 #define NURBS_IO_H
 
+#include <nurbs/curve.h>
 #include <nurbs/patches.h>
 
 #ifdef __cplusplus
@@ -26,6 +27,14 @@ NURBS_API nurbs_status nurbs_patches_write_json(const nurbs_patches *patches, co
 NURBS_API nurbs_status nurbs_patches_read_iges(const char *path, nurbs_patches **patches,
                                                char *report, size_t report_size);
 NURBS_API nurbs_status nurbs_patches_write_iges(const nurbs_patches *patches, const char *path);
+
+/** Curves of an IGES file in metres: entities 126 (B-spline), 110 (line) and 100 (circular arc, exact
+ * as a rational quadratic), and the parts of composite curves 102 in their order. Curves that only
+ * serve another entity (physically dependent) are left out.
+ * @param n       fills the number of curves; 0 is no error
+ * @param curves  creates an array of n curves: nurbs_curves_free() */
+NURBS_API nurbs_status nurbs_curves_read_iges(const char *path, size_t *n, nurbs_curve ***curves);
+NURBS_API void nurbs_curves_free(size_t n, nurbs_curve **curves);
 
 /** For looking: triangles (binary STL) and quads (VTU, ASCII) with `parts` subdivisions a knot
  * span. */
