@@ -1,0 +1,78 @@
+/* The DTMB 5415, wetted at z = 0 and simplified within 1e-4 of its length, Fr 0.35, stern variant
+ * with x_s 0.35 L, t_c = 1.2/nu_s, nu_c = 1.44 nu_s. An independent prototype on its own fit of the
+ * hull found C_w 1.585e-3 (645 unknowns) and 1.588e-3 (867). */
+#include "check.h"
+
+#include <igabem/igabem.h>
+#include <nurbs/nurbs.h>
+
+static const double length = 5.72;
+
+static igabem_hull *wetted_hull(double simplify)
+{
+    nurbs_patches *file = NULL;
+    nurbs_surface *wetted = NULL, *light = NULL;
+    igabem_hull *hull = NULL;
+    double bound;
+    CU_ASSERT_EQUAL_FATAL(nurbs_patches_read(EXAMPLES_DIR "/hulls/dtmb5415.json", &file), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(
+        nurbs_surface_wetted(nurbs_patches_get(file, 0), 0.0, 1e-5 * length, &wetted), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_simplify(wetted, simplify * length,
+                                                 NURBS_KEEP_EDGES | NURBS_KEEP_KINKS, &light,
+                                                 &bound),
+                          NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(
+        igabem_hull_create((const nurbs_surface *const *)&light, 1, IGABEM_SYMMETRIC, &hull),
+        IGABEM_OK);
+    CU_ASSERT_EQUAL(igabem_hull_set_length(hull, length), IGABEM_OK);
+    nurbs_surface_free(light);
+    nurbs_surface_free(wetted);
+    nurbs_patches_free(file);
+    return hull;
+}
+
+static double resistance(const igabem_hull *hull, int nu, int nv)
+{
+    igabem_options options;
+    igabem_solution *solution = NULL;
+    igabem_forces forces;
+    igabem_options_init(&options);
+    options.froude = 0.35;
+    options.elements_u = nu;
+    options.elements_v = nv;
+    igabem_status status = igabem_solve(hull, &options, &solution);
+    if (status != IGABEM_OK)
+        fprintf(stderr, "solve: %s\n", igabem_last_error());
+    CU_ASSERT_EQUAL_FATAL(status, IGABEM_OK);
+    CU_ASSERT_EQUAL(igabem_solution_options(solution)->formulation, IGABEM_NEUMANN_KELVIN_STERN);
+    CU_ASSERT_EQUAL_FATAL(igabem_forces_compute(solution, &forces), IGABEM_OK);
+    igabem_solution_free(solution);
+    printf("\n    %d x %d, %zu unknowns: C_w %.4e, condition %.0f, %.2f s", nu, nv, forces.dofs,
+           forces.cw, forces.condition, forces.seconds);
+    return forces.cw;
+}
+
+static void test_refinement(void)
+{
+    igabem_hull *hull = wetted_hull(1e-4);
+    double coarse = resistance(hull, 32, 10), fine = resistance(hull, 48, 14);
+    CHECK_RELATIVE(coarse, 1.60e-3, 0.04);
+    CHECK_RELATIVE(fine, 1.60e-3, 0.02);
+    igabem_hull_free(hull);
+}
+
+/* With knots of its own the density does not see which knots of the shape were removed. */
+static void test_simplification(void)
+{
+    igabem_hull *light = wetted_hull(1e-4), *fine = wetted_hull(5e-5);
+    CHECK_RELATIVE(resistance(light, 24, 8), resistance(fine, 24, 8), 0.01);
+    igabem_hull_free(light);
+    igabem_hull_free(fine);
+}
+
+static const struct check_case cases[] = {
+    {"refinement", test_refinement},
+    {"simplification of the shape", test_simplification},
+};
+
+CHECK_MAIN("dtmb5415", cases)

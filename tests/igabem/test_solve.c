@@ -1,0 +1,288 @@
+/* The solver as its callers see it: settings, shared work, formulations, refusals. */
+#include "check.h"
+#include "hulls.h"
+
+#include <string.h>
+
+static igabem_solution *solve(const igabem_hull *hull, const igabem_options *options)
+{
+    igabem_solution *solution = NULL;
+    igabem_status status = igabem_solve(hull, options, &solution);
+    if (status != IGABEM_OK)
+        fprintf(stderr, "solve: %s\n", igabem_last_error());
+    CU_ASSERT_EQUAL_FATAL(status, IGABEM_OK);
+    return solution;
+}
+
+static igabem_forces forces_of(const igabem_solution *solution)
+{
+    igabem_forces forces;
+    CU_ASSERT_EQUAL_FATAL(igabem_forces_compute(solution, &forces), IGABEM_OK);
+    return forces;
+}
+
+static double cw_of(const igabem_hull *hull, const igabem_options *options)
+{
+    igabem_solution *solution = solve(hull, options);
+    double cw = forces_of(solution).cw;
+    igabem_solution_free(solution);
+    return cw;
+}
+
+static igabem_options setting(int nu, int nv)
+{
+    igabem_options options;
+    igabem_options_init(&options);
+    options.froude = 0.3;
+    options.elements_u = nu;
+    options.elements_v = nv;
+    return options;
+}
+
+static void test_names(void)
+{
+    igabem_formulation f;
+    CU_ASSERT_TRUE(igabem_formulation_parse("hogner", &f));
+    CU_ASSERT_EQUAL(f, IGABEM_HOGNER);
+    CU_ASSERT_STRING_EQUAL(igabem_formulation_name(IGABEM_NEUMANN_KELVIN_STERN),
+                           "neumann-kelvin-stern");
+    CU_ASSERT_FALSE(igabem_formulation_parse("kelvin", &f));
+    CU_ASSERT_PTR_NULL(igabem_formulation_name((igabem_formulation)99));
+}
+
+static void test_freeze(void)
+{
+    igabem_hull *wigley = wigley_hull(0.1, 0.0625, 1, 1);
+    igabem_hull *spheroid = ellipsoid_hull(1.0, 0.2, 0.2, 0.2, 1, 1);
+    igabem_hull_info info;
+    igabem_hull_get_info(wigley, &info);
+    igabem_options options;
+    igabem_options_init(&options);
+    options.froude = 0.3;
+    CU_ASSERT_EQUAL(igabem_options_freeze(wigley, &options), IGABEM_OK);
+    CHECK_CLOSE(options.cutoff_angle, 1.2 / info.nu_s, 1e-12);
+    CHECK_CLOSE(options.stem_limit, 2.0 * info.nu_s, 1e-12);
+    CU_ASSERT_EQUAL(options.formulation, IGABEM_NEUMANN_KELVIN);
+    CU_ASSERT_EQUAL(options.refine_v, 1);
+    CU_ASSERT_EQUAL(options.elements_u, 0);
+    CU_ASSERT_EQUAL(options.line_term, 1);
+    igabem_options_init(&options);
+    options.froude = 0.3;
+    CU_ASSERT_EQUAL(igabem_options_freeze(spheroid, &options), IGABEM_OK);
+    CU_ASSERT(isinf(options.cutoff_angle));
+    CU_ASSERT_EQUAL(options.line_term, 0);
+    igabem_hull_free(wigley);
+    igabem_hull_free(spheroid);
+}
+
+/* Hulls with knots here and there get uniform ones for their density, which `refine` divides. */
+static void test_irregular_knots(void)
+{
+    nurbs_surface *surface = NULL, *crowded = NULL;
+    const double knots[4] = {0.1, 0.12, 0.14, 0.8};
+    CU_ASSERT_EQUAL_FATAL(nurbs_make_wigley(1.0, 0.1, 0.0625, &surface), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_insert(surface, 0, 4, knots, &crowded), NURBS_OK);
+    igabem_hull *hull = NULL, *plain = wigley_hull(0.1, 0.0625, 1, 1);
+    CU_ASSERT_EQUAL_FATAL(
+        igabem_hull_create((const nurbs_surface *const *)&crowded, 1, IGABEM_SYMMETRIC, &hull),
+        IGABEM_OK);
+    igabem_options options;
+    igabem_options_init(&options);
+    options.froude = 0.3;
+    CU_ASSERT_EQUAL(igabem_options_freeze(hull, &options), IGABEM_OK);
+    CU_ASSERT_EQUAL(options.elements_u, 5);
+    CU_ASSERT_EQUAL(options.elements_v, 1);
+    options.refine = options.refine_v = 2;
+    igabem_options same = setting(10, 2);
+    CHECK_RELATIVE(cw_of(hull, &options), cw_of(plain, &same), 1e-5);
+    nurbs_surface_free(surface);
+    nurbs_surface_free(crowded);
+    igabem_hull_free(hull);
+    igabem_hull_free(plain);
+}
+
+/* Several settings at once give what each gives alone. */
+static void test_many(void)
+{
+    enum { N = 6 };
+    igabem_hull *hull = wigley_hull(0.1, 0.0625, 1, 1);
+    igabem_options options[N];
+    for (int k = 0; k < N; k++)
+        options[k] = setting(8, 3);
+    options[1].froude = 0.4;
+    options[2].formulation = IGABEM_NEUMANN_KELVIN_STERN;
+    options[3].formulation = IGABEM_DOUBLE_BODY_KOCHIN;
+    options[4].formulation = IGABEM_HOGNER;
+    options[5].elements_u = 6;
+    igabem_solution *solutions[N];
+    CU_ASSERT_EQUAL_FATAL(igabem_solve_many(hull, N, options, solutions), IGABEM_OK);
+    for (int k = 0; k < N; k++) {
+        igabem_solution *alone = solve(hull, &options[k]);
+        igabem_forces a = forces_of(solutions[k]), b = forces_of(alone);
+        CU_ASSERT(a.cw > 0);
+        CHECK_RELATIVE(a.cw, b.cw, 1e-12);
+        CU_ASSERT_EQUAL(a.dofs, b.dofs);
+        CU_ASSERT_EQUAL(isnan(a.condition), k == 4);
+        igabem_solution_free(alone);
+        igabem_solution_free(solutions[k]);
+    }
+    igabem_hull_free(hull);
+}
+
+/* C_w at 0.85 and 1.15 of the cut-off is that of separate solves. */
+static void test_sensitivity(void)
+{
+    igabem_hull *hull = wigley_hull(0.1, 0.0625, 1, 1);
+    igabem_options options = setting(8, 3);
+    CU_ASSERT_EQUAL_FATAL(igabem_options_freeze(hull, &options), IGABEM_OK);
+    options.sensitivity = 1;
+    igabem_solution *solution = solve(hull, &options);
+    igabem_forces forces = forces_of(solution);
+    igabem_solution_free(solution);
+    options.sensitivity = 0;
+    double angle = options.cutoff_angle;
+    options.cutoff_angle = 0.85 * angle;
+    CHECK_RELATIVE(forces.cw_cutoff_lower, cw_of(hull, &options), 1e-5);
+    options.cutoff_angle = 1.15 * angle;
+    CHECK_RELATIVE(forces.cw_cutoff_upper, cw_of(hull, &options), 1e-5);
+    CU_ASSERT(fabs(forces.cw_cutoff_upper / forces.cw_cutoff_lower - 1.0) > 1e-4);
+    igabem_hull_free(hull);
+}
+
+/* With x_s at the stern the variant is plain Neumann-Kelvin, at the bow it is the double body. */
+static void test_stern_limits(void)
+{
+    igabem_hull *hull = wigley_hull(0.1, 0.0625, 1, 1);
+    igabem_options options = setting(8, 3), stern = options;
+    stern.formulation = IGABEM_NEUMANN_KELVIN_STERN;
+    stern.stern_length = 0.0;
+    stern.stern_blend = 0.0;
+    double plain = cw_of(hull, &options);
+    CHECK_RELATIVE(cw_of(hull, &stern), plain, 1e-12);
+    stern.stern_length = 1.0;
+    options.formulation = IGABEM_DOUBLE_BODY_KOCHIN;
+    double body = cw_of(hull, &options);
+    CHECK_RELATIVE(cw_of(hull, &stern), body, 1e-12);
+    CU_ASSERT(fabs(plain / body - 1.0) > 0.01);
+    igabem_hull_free(hull);
+}
+
+/* A body given whole, both sides as patches, makes the waves of the half with its image. */
+static void test_both_sides(void)
+{
+    nurbs_surface *sides[2] = {NULL, NULL};
+    const double mirror[9] = {1, 0, 0, 0, -1, 0, 0, 0, 1}, shift[3] = {0, 0, 0};
+    CU_ASSERT_EQUAL_FATAL(nurbs_make_wigley(1.0, 0.1, 0.0625, &sides[0]), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_transform(sides[0], mirror, shift, &sides[1]), NURBS_OK);
+    igabem_hull *whole = NULL, *half = wigley_hull(0.1, 0.0625, 1, 1);
+    CU_ASSERT_EQUAL_FATAL(igabem_hull_create((const nurbs_surface *const *)sides, 2, 0, &whole),
+                          IGABEM_OK);
+    igabem_options options = setting(6, 2);
+    CU_ASSERT_EQUAL_FATAL(igabem_options_freeze(half, &options), IGABEM_OK);
+    options.tolerance = 1e-7;
+    igabem_solution *a = solve(half, &options), *b = solve(whole, &options);
+    igabem_forces fa = forces_of(a), fb = forces_of(b);
+    CU_ASSERT_EQUAL(fb.dofs, 2 * fa.dofs);
+    CHECK_RELATIVE(fb.cw, fa.cw, 1e-6);
+    const double uv[2] = {0.3, 0.4};
+    double va[3], vb[3];
+    CU_ASSERT_EQUAL(igabem_surface_velocity(a, 0, 1, uv, va, NULL), IGABEM_OK);
+    CU_ASSERT_EQUAL(igabem_surface_velocity(b, 1, 1, uv, vb, NULL), IGABEM_OK);
+    CHECK_CLOSE(vb[0], va[0], 1e-5);
+    CHECK_CLOSE(vb[1], -va[1], 1e-5);
+    CHECK_CLOSE(vb[2], va[2], 1e-5);
+    igabem_solution_free(a);
+    igabem_solution_free(b);
+    igabem_hull_free(whole);
+    igabem_hull_free(half);
+    nurbs_surface_free(sides[0]);
+    nurbs_surface_free(sides[1]);
+}
+
+static void test_threads(void)
+{
+    igabem_hull *hull = wigley_hull(0.1, 0.0625, 1, 1);
+    igabem_options options = setting(8, 3);
+    options.threads = 1;
+    double one = cw_of(hull, &options);
+    CU_ASSERT_EQUAL(cw_of(hull, &options), one);
+    options.threads = 2;
+    CHECK_RELATIVE(cw_of(hull, &options), one, 1e-10);
+    igabem_hull_free(hull);
+}
+
+static int cancel_half_way(void *data, double fraction)
+{
+    double *last = data;
+    CU_ASSERT(fraction >= *last);
+    *last = fraction;
+    return fraction >= 0.5;
+}
+
+static void test_progress(void)
+{
+    igabem_hull *hull = wigley_hull(0.1, 0.0625, 1, 1);
+    igabem_options options = setting(3, 2);
+    double last = 0.0;
+    options.progress = cancel_half_way;
+    options.progress_data = &last;
+    igabem_solution *solution = NULL;
+    CU_ASSERT_EQUAL(igabem_solve(hull, &options, &solution), IGABEM_ERROR_CANCELLED);
+    CU_ASSERT_PTR_NULL(solution);
+    CU_ASSERT(last >= 0.5);
+    igabem_hull_free(hull);
+}
+
+static void refuse(const igabem_hull *hull, const igabem_options *options, const char *word)
+{
+    igabem_solution *solution = NULL;
+    CU_ASSERT_EQUAL(igabem_solve(hull, options, &solution), IGABEM_ERROR_ARGUMENT);
+    CU_ASSERT_PTR_NULL(solution);
+    if (!strstr(igabem_last_error(), word))
+        fprintf(stderr, "\"%s\" does not name %s\n", igabem_last_error(), word);
+    CU_ASSERT_PTR_NOT_NULL(strstr(igabem_last_error(), word));
+}
+
+static void test_refusals(void)
+{
+    igabem_hull *hull = wigley_hull(0.1, 0.0625, 1, 1);
+    igabem_options good = setting(3, 2), bad = good;
+    bad.froude = NAN;
+    refuse(hull, &bad, "Froude");
+    bad.froude = -0.3;
+    refuse(hull, &bad, "Froude");
+    bad = good;
+    bad.refine = 0;
+    refuse(hull, &bad, "refine");
+    bad = good;
+    bad.degree = 12;
+    refuse(hull, &bad, "degree");
+    bad = good;
+    bad.tolerance = 0.0;
+    refuse(hull, &bad, "tolerance");
+    bad = good;
+    bad.cutoff_angle = -1.0;
+    refuse(hull, &bad, "cutoff_angle");
+    bad = good;
+    bad.formulation = (igabem_formulation)77;
+    refuse(hull, &bad, "formulation");
+    bad = good;
+    bad.gravity = INFINITY;
+    refuse(hull, &bad, "gravity");
+    igabem_hull_free(hull);
+}
+
+static const struct check_case cases[] = {
+    {"names of formulations", test_names},
+    {"frozen options", test_freeze},
+    {"hull with irregular knots", test_irregular_knots},
+    {"several settings at once", test_many},
+    {"sensitivity to the cut-off", test_sensitivity},
+    {"limits of the stern variant", test_stern_limits},
+    {"both sides as patches", test_both_sides},
+    {"threads", test_threads},
+    {"progress and cancelling", test_progress},
+    {"refusals", test_refusals},
+};
+
+CHECK_MAIN("solve", cases)

@@ -1,0 +1,98 @@
+/* The Wigley hull B/L 0.1, T/L 0.0625: resistance against an independent prototype of the same
+ * formulation (line term without stem limiter, filter t_c = 1.2/nu_s, exponent 2), whose C_w these
+ * are, and the thin-ship limit. */
+#include "check.h"
+#include "hulls.h"
+
+struct row {
+    int nu, nv;
+    double cw[4]; /* at Fr 0.25, 0.30, 0.35, 0.40 */
+};
+
+static const double froude[4] = {0.25, 0.30, 0.35, 0.40};
+static const struct row rows[] = {
+    {16, 4, {0.7479e-3, 1.2293e-3, 1.2085e-3, 1.5983e-3}},
+    {24, 6, {0.7292e-3, 1.2151e-3, 1.2156e-3, 1.5945e-3}},
+    {32, 8, {0.7237e-3, 1.2116e-3, 1.2157e-3, 1.5939e-3}},
+    {48, 12, {0.7239e-3, 1.2060e-3, 1.2160e-3, 1.5944e-3}},
+};
+
+static igabem_options setting(double fr, int nu, int nv)
+{
+    igabem_options options;
+    igabem_options_init(&options);
+    options.froude = fr;
+    options.elements_u = nu;
+    options.elements_v = nv;
+    options.stem_limit = INFINITY;
+    return options;
+}
+
+static double resistance(const igabem_hull *hull, const igabem_options *options)
+{
+    igabem_solution *solution = NULL;
+    igabem_forces forces;
+    igabem_status status = igabem_solve(hull, options, &solution);
+    if (status != IGABEM_OK)
+        fprintf(stderr, "solve: %s\n", igabem_last_error());
+    CU_ASSERT_EQUAL_FATAL(status, IGABEM_OK);
+    CU_ASSERT_EQUAL_FATAL(igabem_forces_compute(solution, &forces), IGABEM_OK);
+    igabem_solution_free(solution);
+    return forces.cw;
+}
+
+static void check_row(const struct row *row)
+{
+    igabem_hull *hull = wigley_hull(0.1, 0.0625, 1, 1);
+    for (int k = 0; k < 4; k++) {
+        igabem_options options = setting(froude[k], row->nu, row->nv);
+        double cw = resistance(hull, &options);
+        printf("\n    %d x %d, Fr %.2f: C_w %.4e, reference %.4e", row->nu, row->nv, froude[k], cw,
+               row->cw[k]);
+        CHECK_RELATIVE(cw, row->cw[k], 1e-3);
+    }
+    igabem_hull_free(hull);
+}
+
+#ifndef WIGLEY_SLOW
+static void test_coarse(void)
+{
+    check_row(&rows[0]);
+}
+
+#else
+static void test_table(void)
+{
+    for (int k = 1; k < 4; k++)
+        check_row(&rows[k]);
+}
+
+/* C_w over Michell's value tends to 1 linearly in the beam. */
+static void test_thin_limit(void)
+{
+    double ratio[2];
+    for (int k = 0; k < 2; k++) {
+        igabem_hull *hull = wigley_hull(k ? 0.0025 : 0.005, 0.0625, 1, 1);
+        igabem_options options = setting(0.30, 32, 8);
+        double cw = resistance(hull, &options);
+        options.formulation = IGABEM_MICHELL;
+        ratio[k] = cw / resistance(hull, &options);
+        igabem_hull_free(hull);
+    }
+    printf("\n    C_w/Michell: %.4f at B 0.005, %.4f at 0.0025, %.4f extrapolated", ratio[0],
+           ratio[1], 2.0 * ratio[1] - ratio[0]);
+    CU_ASSERT(ratio[0] < ratio[1]);
+    CHECK_CLOSE(2.0 * ratio[1] - ratio[0], 1.0, 5e-3);
+}
+
+#endif
+static const struct check_case cases[] = {
+#ifdef WIGLEY_SLOW
+    {"convergence table", test_table},
+    {"thin-ship limit", test_thin_limit},
+#else
+    {"coarsest row of the table", test_coarse},
+#endif
+};
+
+CHECK_MAIN("wigley", cases)
