@@ -47,7 +47,7 @@ static struct trust trust_replay(const struct bayesopt *bo)
         double v = p->state == BAYESOPT_STATE_DONE ? history_violation(bo, p) : INFINITY;
         bool better = v < violation || (v == violation && p->f < f);
         bool success = v < violation || (v == violation && p->f < f - 1e-3 * fabs(f));
-        if (p->phase == BAYESOPT_PHASE_LOCAL)
+        if (p->phase == BAYESOPT_PHASE_LOCAL || p->phase == BAYESOPT_PHASE_POLISH)
             trust_update(bo, &t, p->state == BAYESOPT_STATE_DONE && success);
         if (p->state == BAYESOPT_STATE_DONE && better) {
             violation = v;
@@ -111,6 +111,19 @@ static bayesopt_status propose_anywhere(struct bayesopt *bo, uint64_t id, double
                                bo->region.m);
 }
 
+/* One global step in eight keeps other basins in view. The others stay near the best point, by
+ * turns where improvement is expected (which also measures where little is known) and where the
+ * model has its minimum (which on smooth objectives is a Newton-like step). */
+static bayesopt_phase next_phase(const struct bayesopt *bo, uint64_t id, bool known)
+{
+    if (!known || bo->options.strategy == BAYESOPT_STRATEGY_GLOBAL)
+        return BAYESOPT_PHASE_GLOBAL;
+    if (bo->options.strategy == BAYESOPT_STRATEGY_AUTO && id % 8 == 0)
+        return BAYESOPT_PHASE_GLOBAL;
+    bool polish = bo->options.strategy == BAYESOPT_STRATEGY_AUTO && bo->options.polish;
+    return polish && id % 2 == 0 ? BAYESOPT_PHASE_POLISH : BAYESOPT_PHASE_LOCAL;
+}
+
 bayesopt_status strategy_propose(struct bayesopt *bo, uint64_t id, double *u, bayesopt_phase *phase,
                                  int *level)
 {
@@ -128,18 +141,15 @@ bayesopt_status strategy_propose(struct bayesopt *bo, uint64_t id, double *u, ba
         return status;
     struct trust trust = trust_replay(bo);
     size_t best = history_best(bo, &feasible);
-    bool local = bo->options.strategy != BAYESOPT_STRATEGY_GLOBAL && best != SIZE_MAX;
-    if (local && bo->options.strategy == BAYESOPT_STRATEGY_AUTO)
-        local = id % 4 != 0;
+    *phase = next_phase(bo, id, best != SIZE_MAX);
     for (size_t j = 0; j < bo->d; j++) {
         lower[j] = 0;
         upper[j] = 1;
     }
-    if (local) {
-        *phase = BAYESOPT_PHASE_LOCAL;
+    if (*phase != BAYESOPT_PHASE_GLOBAL)
         trust_box(bo, trust.length, bo->points[best].u, lower, upper);
-    }
-    struct search search = {.goal = SEARCH_IMPROVEMENT,
+    bool polish = *phase == BAYESOPT_PHASE_POLISH;
+    struct search search = {.goal = polish ? SEARCH_MEAN : SEARCH_IMPROVEMENT,
                             .lower = lower,
                             .upper = upper,
                             .id = id,
