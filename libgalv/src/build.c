@@ -41,7 +41,7 @@ galv_status galv_sampling_check(const galv_sampling *sampling, size_t n)
 
 size_t galv_block_rows(size_t samples, size_t coordinates, size_t workspace)
 {
-    size_t block = workspace / 8 / (2 * sizeof(double) * coordinates);
+    size_t block = workspace / 4 / (2 * sizeof(double) * coordinates);
     block = block > 512 ? 512 : block < 16 ? 16 : block;
     return block < samples ? block : samples;
 }

@@ -20,7 +20,7 @@ typedef struct galv_job {
 galv_status galv_options_check(const galv_options *options);
 galv_status galv_sampling_check(const galv_sampling *sampling, size_t n);
 
-/* Rows per block: enough for matrix products to run at speed, within an eighth of the workspace. */
+/* Rows per block: enough for matrix products to run at speed, within a quarter of the workspace. */
 size_t galv_block_rows(size_t samples, size_t coordinates, size_t workspace);
 
 galv_goal galv_goal_from(const galv_options *options, bool centre);
