@@ -1,0 +1,31 @@
+/* The parts of the validation report of libigabem; each prints one section in Markdown. */
+#ifndef IGABEM_VALIDATION_H
+#define IGABEM_VALIDATION_H
+
+#include <igabem/igabem.h>
+#include <nurbs/nurbs.h>
+
+/* Bodies; a failure prints its reason and exits. */
+igabem_hull *wigley(double beam, double draft, int along, int around);
+igabem_hull *ellipsoid(double length, double beam, double height, double depth, int along,
+                       int around);
+nurbs_surface *ellipsoid_surface(double length, double beam, double height, double depth, int along,
+                                 int around);
+
+/* The wetted DTMB 5415 of the file, simplified within tolerance (over its length), long spans
+ * divided. */
+igabem_hull *dtmb5415(const char *file, double tolerance, int along, int around);
+
+/* Default options at a Froude number. */
+igabem_options at_froude(double froude);
+
+/* Solves all settings at once and computes their forces. */
+void solve_all(const igabem_hull *hull, size_t n, const igabem_options *options,
+               igabem_forces *forces);
+
+void double_body_section(void);
+void spheroid_section(void);
+void wigley_section(void);
+void dtmb5415_section(const char *file);
+
+#endif
