@@ -338,6 +338,59 @@ static void test_surface_remove(void)
     nurbs_surface_free(back);
 }
 
+/* A simple shape on a wobbling parametrisation: evened out it needs fewer control points, and each
+ * surface lies within the bound of the other. */
+static void test_geometric_mode(void)
+{
+    enum { NU = 24, NV = 8, POINTS = 150 };
+    const int degree[2] = {3, 3};
+    const size_t size[2] = {NU, NV};
+    const double tolerance = 1e-2;
+    uint64_t state = 57;
+    double ku[NU + 4], kv[NV + 4], gv[NV], points[3 * NU * NV], bound, plain_bound;
+    nurbs_surface *s, *even, *plain;
+    random_knots(&state, 3, NU, 0, ku);
+    random_knots(&state, 3, NV, 0, kv);
+    nurbs_greville(3, NV, kv, gv);
+    for (size_t i = 0; i < NU; i++)
+        for (size_t j = 0; j < NV; j++) { /* even in x although the knots are not */
+            double *p = points + 3 * (i * NV + j);
+            p[0] = 2.0 * (double)i / (NU - 1);
+            p[1] = 0.4 * p[0] * (2.0 - p[0]) * (1.0 - gv[j] * gv[j]);
+            p[2] = -gv[j];
+        }
+    for (size_t i = 0; i < NU; i++)
+        points[3 * (i * NV + NV - 1) + 1] = 0.0;
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_create(degree, size, ku, kv, points, NULL, &s), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(
+        nurbs_surface_simplify(s, tolerance, NURBS_KEEP_EDGES, &plain, &plain_bound), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(
+        nurbs_surface_simplify_geometric(s, tolerance, NURBS_KEEP_EDGES, &even, &bound), NURBS_OK);
+    CU_ASSERT(bound <= tolerance);
+    CU_ASSERT(5 * nurbs_surface_size(even, 0) * nurbs_surface_size(even, 1) <
+              3 * nurbs_surface_size(plain, 0) * nurbs_surface_size(plain, 1));
+    const nurbs_surface *const both[2] = {s, even};
+    for (int k = 0; k < 2; k++) {
+        double at[3 * POINTS], uv[2 * POINTS], distance[POINTS];
+        for (int i = 0; i < POINTS; i++) {
+            const double where[2] = {random_unit(&state), random_unit(&state)};
+            nurbs_surface_eval(both[k], 0, 1, where, at + 3 * i);
+        }
+        CU_ASSERT_EQUAL(nurbs_surface_closest(both[1 - k], POINTS, at, uv, distance), NURBS_OK);
+        for (int i = 0; i < POINTS; i++)
+            CU_ASSERT(distance[i] <= bound);
+    }
+    const size_t nv = nurbs_surface_size(even, 1);
+    for (size_t i = 0; i < nurbs_surface_size(even, 0); i++)
+        CU_ASSERT_EQUAL(nurbs_surface_points(even)[3 * (i * nv + nv - 1) + 1], 0.0);
+    nurbs_surface_free(even);
+    CU_ASSERT_EQUAL(nurbs_surface_simplify_geometric(s, 1.0, NURBS_KEEP_KINKS, &even, NULL),
+                    NURBS_ERROR_ARGUMENT);
+    CU_ASSERT_PTR_NULL(even);
+    nurbs_surface_free(s);
+    nurbs_surface_free(plain);
+}
+
 static void test_bad_input(void)
 {
     uint64_t state = 56;
@@ -374,6 +427,7 @@ static const struct check_case cases[] = {
     {"edges and sides stay", test_edges_stay},
     {"kinks stay", test_kinks_stay},
     {"removal from surfaces", test_surface_remove},
+    {"geometric mode", test_geometric_mode},
     {"bad input and extreme tolerances", test_bad_input},
 };
 
