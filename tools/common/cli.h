@@ -64,6 +64,7 @@ struct cli_table {
     size_t rows, columns;
     char **names;
     double *values; /* row by row */
+    size_t *lines;  /* where each row stood in the file, from 1 */
 };
 /* PATH "-" reads stdin. On failure prints the sentence with the line at fault and returns false. */
 bool cli_table_read(const char *path, struct cli_table *table);

@@ -75,13 +75,18 @@ static bool read_stream(FILE *stream, const char *path, struct cli_table *table)
         if (table->rows == room) {
             room = room ? 2 * room : 256;
             double *more = realloc(table->values, room * table->columns * sizeof *more);
-            if (!more) {
+            if (more)
+                table->values = more;
+            size_t *lines = realloc(table->lines, room * sizeof *lines);
+            if (lines)
+                table->lines = lines;
+            if (!more || !lines) {
                 cli_fail("out of memory");
                 ok = false;
                 break;
             }
-            table->values = more;
         }
+        table->lines[table->rows] = number;
         ok = read_row(text, path, number, table->values + table->rows * table->columns,
                       table->columns);
         table->rows += ok;
@@ -121,6 +126,7 @@ void cli_table_free(struct cli_table *table)
         free(table->names[i]);
     free(table->names);
     free(table->values);
+    free(table->lines);
     *table = (struct cli_table){0};
 }
 

@@ -10,6 +10,7 @@ static const struct {
 } commands[] = {
     {"solve", "igabem solve", "wave resistance, waves, pressure", command_solve},
     {"hydrostatics", "igabem hydrostatics", "particulars of a hull at rest", command_hydrostatics},
+    {"green", "igabem green", "the Kelvin Green function at points", command_green},
     {"check", "igabem check", "whether a hull can be solved, and why not", command_check},
 };
 
