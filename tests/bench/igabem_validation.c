@@ -81,7 +81,7 @@ igabem_hull *ellipsoid(double length, double beam, double height, double depth, 
     return hull_of(ellipsoid_surface(length, beam, height, depth, along, around));
 }
 
-igabem_hull *dtmb5415(const char *file, double tolerance, int along, int around)
+igabem_hull *dtmb5415(const char *file, double tolerance)
 {
     nurbs_patches *patches;
     nurbs_surface *wetted = NULL, *light = NULL;
@@ -95,7 +95,7 @@ igabem_hull *dtmb5415(const char *file, double tolerance, int along, int around)
                                     &light, &bound);
     igabem_hull *hull = hull_of(take(status, light, wetted, file));
     nurbs_patches_free(patches);
-    if (igabem_hull_set_length(hull, length) || igabem_hull_divide(hull, along, around))
+    if (igabem_hull_set_length(hull, length))
         stop(file, igabem_last_error());
     return hull;
 }

@@ -12,9 +12,8 @@ igabem_hull *ellipsoid(double length, double beam, double height, double depth, 
 nurbs_surface *ellipsoid_surface(double length, double beam, double height, double depth, int along,
                                  int around);
 
-/* The wetted DTMB 5415 of the file, simplified within tolerance (over its length), long spans
- * divided. */
-igabem_hull *dtmb5415(const char *file, double tolerance, int along, int around);
+/* The wetted DTMB 5415 of the file, simplified within tolerance (over its length). */
+igabem_hull *dtmb5415(const char *file, double tolerance);
 
 /* Default options at a Froude number. */
 igabem_options at_froude(double froude);

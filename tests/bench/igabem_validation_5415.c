@@ -6,11 +6,14 @@
 
 static const double LENGTH = 5.72, GRAVITY = 9.803;
 
-static igabem_options model_scale(double froude, igabem_formulation formulation)
+static igabem_options model_scale(double froude, igabem_formulation formulation,
+                                  const int elements[2])
 {
     igabem_options options = at_froude(froude);
     options.gravity = GRAVITY;
     options.formulation = formulation;
+    options.elements_u = elements[0];
+    options.elements_v = elements[1];
     return options;
 }
 
@@ -58,8 +61,8 @@ static double stern_length(const igabem_hull *hull, double x_s)
 
 enum { VARIANTS = 16 };
 
-static size_t variants(const igabem_hull *hull, double froude, igabem_options *o,
-                       const char **names)
+static size_t variants(const igabem_hull *hull, double froude, const int elements[2],
+                       igabem_options *o, const char **names)
 {
     static const struct {
         const char *name;
@@ -85,7 +88,7 @@ static size_t variants(const igabem_hull *hull, double froude, igabem_options *o
         {"michell", IGABEM_MICHELL, 1, 1.2, 0},
     };
     for (size_t k = 0; k < VARIANTS; k++) {
-        o[k] = model_scale(froude, list[k].formulation);
+        o[k] = model_scale(froude, list[k].formulation, elements);
         o[k].line_term = list[k].line_term;
         o[k].cutoff_factor = list[k].factor;
         if (list[k].x_s > 0)
@@ -98,22 +101,21 @@ static size_t variants(const igabem_hull *hull, double froude, igabem_options *o
 static void formulations(const char *file)
 {
     enum { LEVELS = 4 };
-    static const int elements[LEVELS][2] = {{16, 6}, {24, 8}, {32, 10}, {48, 14}};
-    static const double tolerance[LEVELS] = {3e-4, 1e-4, 1e-4, 3e-5};
+    static const int elements[LEVELS][2] = {{24, 8}, {32, 10}, {40, 12}, {56, 16}};
     igabem_options options[VARIANTS];
     igabem_forces forces[LEVELS][VARIANTS];
     const char *names[VARIANTS];
     size_t n = 0;
+    igabem_hull *hull = dtmb5415(file, 1e-4);
     for (int l = 0; l < LEVELS; l++) {
-        igabem_hull *hull = dtmb5415(file, tolerance[l], elements[l][0], elements[l][1]);
-        n = variants(hull, 0.35, options, names);
+        n = variants(hull, 0.35, elements[l], options, names);
         solve_all(hull, n, options, forces[l]);
-        igabem_hull_free(hull);
     }
+    igabem_hull_free(hull);
     printf("### Formulations at Fr 0.35\n\nC_w x 1000 by Kochin function (by pressure) on four "
-           "levels: simplified within 3e-4, 1e-4, 1e-4, 3e-5 of the length,\nspans divided to at "
-           "most L/16, L/24, L/32, L/48. Default: x_s = 2.03 m, t_c nu_s = 1.2, stem limiter "
-           "1.44 nu_s.\n\n| formulation |");
+           "levels: uniform knots of the density's own, 24 x 8, 32 x 10,\n40 x 12 and 56 x 16 "
+           "spans, on the hull simplified within 1e-4 of its length. Default: x_s = 2.03 m, "
+           "t_c nu_s = 1.2,\nstem limiter 1.44 nu_s.\n\n| formulation |");
     for (int l = 0; l < LEVELS; l++)
         printf(" %zu unknowns |", forces[l][0].dofs);
     printf(" condition |\n|---|---|---|---|---|---|\n");
@@ -140,10 +142,11 @@ static void froude_numbers(const char *file)
         IGABEM_HOGNER, IGABEM_MICHELL};
     static igabem_options options[N * KINDS];
     static igabem_forces forces[N * KINDS];
-    igabem_hull *hull = dtmb5415(file, 1e-4, 24, 8);
+    static const int elements[2] = {32, 10};
+    igabem_hull *hull = dtmb5415(file, 1e-4);
     for (int i = 0; i < N; i++)
         for (int k = 0; k < KINDS; k++) {
-            options[KINDS * i + k] = model_scale(0.20 + 0.01 * i, kinds[k]);
+            options[KINDS * i + k] = model_scale(0.20 + 0.01 * i, kinds[k], elements);
             options[KINDS * i + k].sensitivity = k == 0;
         }
     solve_all(hull, N * KINDS, options, forces);
@@ -165,13 +168,13 @@ static void froude_numbers(const char *file)
 
 static void growth(const char *file)
 {
-    static const int elements[5][2] = {{12, 5}, {24, 8}, {32, 10}, {48, 14}, {64, 18}};
+    static const int elements[5][2] = {{16, 6}, {24, 8}, {32, 10}, {40, 12}, {56, 16}};
     printf("### Time\n\nOne solve at Fr 0.35 with the default formulation, all included; %s.\n\n"
            "| unknowns | seconds |\n|---|---|\n",
            "wall clock of the machine that wrote this page");
     for (int l = 0; l < 5; l++) {
-        igabem_hull *hull = dtmb5415(file, l ? 1e-4 : 3e-4, elements[l][0], elements[l][1]);
-        igabem_options options = model_scale(0.35, IGABEM_AUTOMATIC);
+        igabem_hull *hull = dtmb5415(file, 1e-4);
+        igabem_options options = model_scale(0.35, IGABEM_AUTOMATIC, elements[l]);
         igabem_forces forces;
         solve_all(hull, 1, &options, &forces);
         printf("| %zu | %.2f |\n", forces.dofs, forces.seconds);
@@ -184,7 +187,7 @@ void dtmb5415_section(const char *file)
 {
     printf("## DTMB 5415, model scale\n\nLpp 5.72 m, g 9.803 m/s^2, C_w on the wetted area of both "
            "sides without the transom.\n\n");
-    igabem_hull *hull = dtmb5415(file, 1e-4, 24, 8);
+    igabem_hull *hull = dtmb5415(file, 1e-4);
     particulars(hull);
     igabem_hull_free(hull);
     published();

@@ -12,7 +12,7 @@ static const double CLEARANCE = 1e-6;        /* of the length: above this a patc
 
 void hull_request_init(struct hull_request *request, const char *path)
 {
-    *request = (struct hull_request){path, 0.0, NAN, NAN, NAN, {-1, -1}, false};
+    *request = (struct hull_request){path, 0.0, NAN, NAN, NAN, false};
 }
 
 void hull_input_free(struct hull_input *input)
@@ -181,16 +181,6 @@ static int prepare(const nurbs_patches *file, const struct hull_request *request
     return CLI_OK;
 }
 
-/* Knots removed for the shape's sake leave spans too long for the density. */
-static igabem_status divide(const struct hull_request *request, struct hull_input *input)
-{
-    static const int usual[2] = {24, 8};
-    const int *elements = request->elements[0] < 0 ? usual : request->elements;
-    if (elements[0] == 0 || (request->elements[0] < 0 && !input->cut))
-        return IGABEM_OK;
-    return igabem_hull_divide(input->hull, elements[0], elements[1]);
-}
-
 static int create_hull(const struct hull_request *request, double lpp, struct hull_input *input)
 {
     double lower[3], upper[3];
@@ -208,8 +198,6 @@ static int create_hull(const struct hull_request *request, double lpp, struct hu
     double length = isnan(request->length) ? lpp : request->length;
     if (!status && length > 0)
         status = igabem_hull_set_length(input->hull, length);
-    if (!status)
-        status = divide(request, input);
     if (status)
         return cli_fail("%s: %s", request->path, igabem_last_error());
     return CLI_OK;

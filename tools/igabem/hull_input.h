@@ -14,8 +14,6 @@ struct hull_request {
     double draft;    /* keel draft amidships that sets the level instead; NAN: not given */
     double simplify; /* tolerance of knot removal over the length; 0: none; NAN: 1e-4 if cut */
     double length;   /* reference length, m; NAN: the file's, else the waterline's */
-    int elements[2]; /* along and around: longer knot spans are divided; 0: none; -1: 24, 8 if cut
-                      */
     bool unbounded;  /* there is no water surface: the body is moved below z = 0 and not cut */
 };
 

@@ -26,6 +26,8 @@ static json_t *options_json(const struct solve_result *result)
     json_object_set_new(json, "formulation", json_string(igabem_formulation_name(o->formulation)));
     json_object_set_new(json, "refine", json_integer(o->refine));
     json_object_set_new(json, "refine_v", json_integer(o->refine_v));
+    json_object_set_new(json, "elements_u", json_integer(o->elements_u));
+    json_object_set_new(json, "elements_v", json_integer(o->elements_v));
     json_object_set_new(json, "degree", json_integer(o->degree));
     json_object_set_new(json, "line_term", json_boolean(o->line_term));
     json_object_set_new(json, "cutoff_angle", real(o->cutoff_angle));

@@ -18,6 +18,8 @@ static const char help[] =
     "                      hogner, michell, or all (auto)\n"
     "  --kernel NAME       kelvin, double-body or rankine (kelvin)\n"
     "  --refine K          split every knot span of the hull in K (1); --refine-v K in v only\n"
+    "  --elements N,M      the density on uniform knots of its own, N spans along u and M along v\n"
+    "                      (as many as the hull has if its spans are uneven), or none\n"
     "  --degree P          least degree of the source density (3)\n"
     "  --tolerance T       relative error asked of the quadrature (1e-5)\n"
     "  --ladder N          N levels from --refine on, each half as fine again: orders and\n"
@@ -38,9 +40,6 @@ static const char help[] =
     "  --level Z           z of the still water in the file (0); --draft T sets it by keel draft\n"
     "  --simplify TOL      knot removal tolerance over the length (1e-4 if the hull is cut), 0 "
     "none\n"
-    "  --elements N,M      divide long knot spans: N along the hull, M around it (24,8 if the "
-    "hull\n"
-    "                      is cut), none\n"
     "  --gravity G         m/s^2 (9.80665);  --density RHO kg/m^3 (1000)\n"
     "  --viscosity NU      m^2/s, for the total resistance by ITTC-57 (1.1386e-6)\n"
     "  --form-factor K     (0)\n"
@@ -234,14 +233,16 @@ static int parse_elements(struct solve_request *request)
 {
     double *list = NULL;
     size_t n = 0;
-    int *elements = request->hull.elements;
-    elements[0] = elements[1] = 0;
+    igabem_options *o = &request->options;
+    o->elements_u = o->elements_v = 0;
     if (strcmp(optarg, "none") == 0)
         return CLI_OK;
     int ok = cli_parse_list(optarg, &list, &n) && n == 2 && list[0] >= 1 && list[1] >= 1 &&
              list[0] <= 1000 && list[1] <= 1000;
-    for (int k = 0; ok && k < 2; k++)
-        elements[k] = (int)list[k];
+    if (ok) {
+        o->elements_u = (int)list[0];
+        o->elements_v = (int)list[1];
+    }
     free(list);
     return ok ? CLI_OK
               : cli_usage("--elements: '%s', expected two counts N,M from 1 to 1000, or none",
