@@ -123,3 +123,25 @@ size_t nurbs_knots_distinct(int degree, size_t n, const double *knots, double *b
     }
     return count;
 }
+
+size_t nurbs_knots_merge(int degree, size_t n, double *knots, double tolerance)
+{
+    const size_t p = (size_t)degree;
+    size_t moved = 0;
+    for (size_t i = p + 1, count; i < n; i += count) {
+        const double first = knots[i];
+        double sum = 0.0;
+        count = 1;
+        if (first - knots[p] <= tolerance || knots[n] - first <= tolerance)
+            continue;
+        while (i + count < n && count < p && knots[i + count] - first <= tolerance &&
+               knots[n] - knots[i + count] > tolerance)
+            sum += knots[i + count++] - first;
+        const double mean = first + sum / (double)count;
+        for (size_t k = i; k < i + count; k++) {
+            moved += knots[k] != mean;
+            knots[k] = mean;
+        }
+    }
+    return moved;
+}

@@ -365,3 +365,28 @@ nurbs_status nurbs_surface_basis(const nurbs_surface *surface, int order, double
     make_rational(order, count, w, values);
     return NURBS_OK;
 }
+
+nurbs_status nurbs_surface_rows(const nurbs_surface *surface, int order, size_t n, const double *uv,
+                                size_t *columns, double *values)
+{
+    if (n == 0)
+        return NURBS_OK;
+    nurbs_status status = eval_check(surface, order, uv && columns ? uv : NULL, values);
+    if (status != NURBS_OK)
+        return status;
+    const size_t pu = (size_t)surface->axis[0].degree, pv = (size_t)surface->axis[1].degree;
+    const size_t count = (pu + 1) * (pv + 1);
+    for (size_t i = 0; i < n; i++, values += (size_t)NURBS_SURFACE_TRIPLES(order) * count) {
+        for (int d = 0; d < 2; d++)
+            if (!inside(&surface->axis[d], uv[2 * i + (size_t)d]))
+                return outside(surface, d, i, uv[2 * i + (size_t)d]);
+        size_t span[2];
+        status = nurbs_surface_basis(surface, order, uv[2 * i], uv[2 * i + 1], span, values);
+        if (status != NURBS_OK)
+            return status;
+        for (size_t a = 0; a <= pu; a++)
+            for (size_t b = 0; b <= pv; b++)
+                *columns++ = (span[0] - pu + a) * surface->axis[1].size + span[1] - pv + b;
+    }
+    return NURBS_OK;
+}

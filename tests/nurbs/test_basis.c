@@ -127,6 +127,24 @@ static void test_distinct_knots(void)
     CU_ASSERT_EQUAL(nurbs_knots_distinct(3, 7, knots, breaks, NULL), 4);
 }
 
+static void test_merging_knots(void)
+{
+    const double third = 1.0 / 3.0;
+    double knots[] = {0,   0,          0,          0,          1e-9, third, third + 5e-17,
+                      0.5, 0.5 + 2e-9, 0.5 + 3e-9, 0.5 + 4e-9, 0.9,  1,     1,
+                      1,   1};
+    CU_ASSERT_EQUAL(nurbs_knots_merge(3, 12, knots, 0.0), 0);
+    CU_ASSERT(nurbs_knots_merge(3, 12, knots, 1e-8) >= 3);
+    CU_ASSERT_EQUAL(knots[4], 1e-9); /* beside an end: stays */
+    CU_ASSERT_EQUAL(knots[5], knots[6]);
+    CHECK_CLOSE(knots[5], third, 1e-16);
+    CU_ASSERT_EQUAL(knots[7], knots[9]); /* at most degree copies */
+    CHECK_CLOSE(knots[7], 0.5 + 5e-9 / 3.0, 1e-15);
+    CU_ASSERT_EQUAL(knots[10], 0.5 + 4e-9);
+    CU_ASSERT_EQUAL(knots[11], 0.9);
+    CU_ASSERT_EQUAL(nurbs_knots_check(3, 12, knots), NURBS_OK);
+}
+
 static void expect_refused(int degree, size_t n, const double *knots, const char *word)
 {
     CU_ASSERT_EQUAL(nurbs_knots_check(degree, n, knots), NURBS_ERROR_ARGUMENT);
@@ -181,6 +199,7 @@ static const struct check_case cases[] = {
     {"span with a hint", test_span_hint},
     {"Greville abscissae of the reference cases", test_greville_of_reference},
     {"distinct knots", test_distinct_knots},
+    {"merging knots", test_merging_knots},
     {"bad knot vectors are named", test_bad_knots_are_named},
     {"Gauss-Legendre rules", test_gauss_legendre},
 };

@@ -118,6 +118,57 @@ static void test_basis_rows(void)
     }
 }
 
+/* Moving one control point moves S, Su ... Svv by the row's entries; moving one weight moves S by
+ * R (P - S) / w. */
+static void test_rows_are_derivatives(void)
+{
+    uint64_t state = 24;
+    const int degree[2] = {3, 2};
+    const size_t size[2] = {7, 6};
+    nurbs_surface *s = random_surface(&state, degree, size, 0, 1), *moved;
+    double uv[6] = {0.21, 0.63, 0.5, 0.5, 1.0, 0.0}, values[3 * 6 * 12], p[18], q[18];
+    size_t columns[3 * 12];
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_rows(s, 2, 3, uv, columns, values), NURBS_OK);
+    for (size_t i = 0; i < 3; i++)
+        for (size_t c = 0; c < 12; c++) {
+            double points[3 * 42], weights[42];
+            const size_t at = columns[12 * i + c];
+            memcpy(points, nurbs_surface_points(s), sizeof points);
+            memcpy(weights, nurbs_surface_weights(s), sizeof weights);
+            points[3 * at + 1] += 1.0;
+            CU_ASSERT_EQUAL_FATAL(nurbs_surface_create(degree, size, nurbs_surface_knots(s, 0),
+                                                       nurbs_surface_knots(s, 1), points, weights,
+                                                       &moved),
+                                  NURBS_OK);
+            nurbs_surface_eval(s, 2, 1, uv + 2 * i, p);
+            nurbs_surface_eval(moved, 2, 1, uv + 2 * i, q);
+            for (size_t t = 0; t < 6; t++) {
+                CHECK_CLOSE(q[3 * t + 1] - p[3 * t + 1], values[(6 * i + t) * 12 + c],
+                            1e-13 * scale_of(p, 18));
+                CHECK_CLOSE(q[3 * t], p[3 * t], 1e-13 * scale_of(p, 18));
+            }
+            nurbs_surface_free(moved);
+            const double step = 1e-6;
+            points[3 * at + 1] -= 1.0;
+            weights[at] += step;
+            CU_ASSERT_EQUAL_FATAL(nurbs_surface_create(degree, size, nurbs_surface_knots(s, 0),
+                                                       nurbs_surface_knots(s, 1), points, weights,
+                                                       &moved),
+                                  NURBS_OK);
+            nurbs_surface_eval(moved, 0, 1, uv + 2 * i, q);
+            for (size_t x = 0; x < 3; x++)
+                CHECK_CLOSE((q[x] - p[x]) / step,
+                            values[6 * i * 12 + c] * (points[3 * at + x] - p[x]) /
+                                nurbs_surface_weights(s)[at],
+                            1e-5);
+            nurbs_surface_free(moved);
+        }
+    uv[3] = 2.0;
+    CU_ASSERT_EQUAL(nurbs_surface_rows(s, 2, 3, uv, columns, values), NURBS_ERROR_ARGUMENT);
+    CU_ASSERT_PTR_NOT_NULL(strstr(nurbs_last_error(), "parameter 1 has v = 2"));
+    nurbs_surface_free(s);
+}
+
 /* Limits from both sides at a knot where the slope in u jumps. */
 static void test_limits(void)
 {
@@ -208,6 +259,7 @@ static const struct check_case cases[] = {
     {"reference points and derivatives", test_reference},
     {"grid, scattered points and orders agree", test_grid_and_orders_agree},
     {"basis rows reproduce points", test_basis_rows},
+    {"rows are derivatives", test_rows_are_derivatives},
     {"limits at a kink", test_limits},
     {"an edge in a coordinate plane evaluates exactly", test_edge_plane_is_exact},
     {"bad input is named", test_bad_input_is_named},

@@ -44,6 +44,13 @@ NURBS_API void nurbs_greville(int degree, size_t n, const double *knots, double 
 NURBS_API size_t nurbs_knots_distinct(int degree, size_t n, const double *knots, double *breaks,
                                       int *multiplicities);
 
+/** Makes interior knots equal that differ by at most `tolerance` (parameter units, >= 0), so that
+ * knots equal only to rounding stop counting twice: each group, begun at its lowest knot and of at
+ * most `degree` copies, moves to its mean. The ends stay; knots within the tolerance of an end stay
+ * as they are. Returns the number of knots that moved. Control points are not changed: a spline
+ * moves by about its speed times the tolerance. */
+NURBS_API size_t nurbs_knots_merge(int degree, size_t n, double *knots, double tolerance);
+
 /** Gauss-Legendre rule on [0,1]; n from 1 to 64. Fills nodes[n] (increasing) and weights[n] (sum
  * 1), to 1e-15. */
 NURBS_API nurbs_status nurbs_gauss_legendre(size_t n, double *nodes, double *weights);

@@ -66,6 +66,17 @@ NURBS_API nurbs_status nurbs_surface_eval_grid(const nurbs_surface *surface, int
 NURBS_API nurbs_status nurbs_surface_basis(const nurbs_surface *surface, int order, double u,
                                            double v, size_t span[2], double *values);
 
+/** Derivatives of points with respect to control points as sparse rows, for n parameters at once.
+ *
+ * S and its derivatives are linear in the control points, the same for x, y and z: derivative k at
+ * parameter i is the sum over c of values[i][k][c] * P[columns[i][c]].
+ * @param order    0, 1 or 2
+ * @param columns  fills columns[n][count], count = (pu+1)(pv+1): indices of control points
+ * @param values   fills values[n][NURBS_SURFACE_TRIPLES(order)][count]
+ * Weights are held fixed; dS/dw_c = R_c (P_c - S) / w_c with R_c = values[i][0][c]. */
+NURBS_API nurbs_status nurbs_surface_rows(const nurbs_surface *surface, int order, size_t n,
+                                          const double *uv, size_t *columns, double *values);
+
 #ifdef __cplusplus
 }
 #endif
