@@ -1,0 +1,130 @@
+#!/bin/sh
+# The command bayesopt: its contracts, a run of an external command, ask and tell by hand.
+# usage: test_bayesopt_tool.sh PATH/TO/bayesopt
+set -u
+tool=$1
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failures=0
+
+fail() {
+    echo "FAILED: $*" >&2
+    failures=$((failures + 1))
+}
+
+# expect STATUS COMMAND...
+expect() {
+    wanted=$1
+    shift
+    "$@" >out 2>err
+    got=$?
+    [ "$got" -eq "$wanted" ] || fail "status $got, expected $wanted: $* ($(cat err))"
+}
+
+# number KEY: the number of the first "KEY": in the JSON of out
+number() {
+    sed -n "s/.*\"$1\": *\([-+0-9.eE]*\).*/\1/p" out | head -n 1
+}
+
+below() {
+    awk "BEGIN { exit !($1 < $2) }" || fail "$1 is not below $2: $3"
+}
+
+expect 0 "$tool" --help
+expect 0 "$tool" --version
+expect 2 "$tool"
+expect 2 "$tool" nonsense
+for command in run ask tell best status plot design export; do
+    expect 0 "$tool" $command --help
+    expect 2 "$tool" $command --nonsense
+done
+
+# An external command that fails in a corner, with a constraint.
+cat >run.yaml <<'YAML'
+store: run.db
+variables:
+  - {name: a, lower: -1, upper: 2}
+  - {name: b, lower: -1, upper: 2}
+objective:
+  command: "awk 'BEGIN { a = {a}; b = {b}; if (a > 1.5 && b > 1.5) exit 3; printf \"sum: %.17g\\ncost = %.17g\\n\", a + b, (a - 0.3)^2 + 2 * (b - 0.4)^2 }'"
+  key: cost
+  folder: cases
+  timeout: 20
+constraints:
+  - {name: sum, lower: 1}
+search: {evaluations: 30, initial: 10, seed: 3, workers: 2}
+YAML
+sed 's/{ a = {a}/{{ a = {a}/' run.yaml >braces.yaml && mv braces.yaml run.yaml
+expect 0 "$tool" run run.yaml --json
+below "$(number f)" 0.062 "the constrained minimum is 0.06"
+[ "$(number evaluations)" = 30 ] || fail "evaluations: $(cat out)"
+[ -s cases/000001/stdout ] || fail "no working folder"
+expect 0 "$tool" run run.yaml --json
+[ "$(number evaluations)" = 30 ] || fail "a finished run went on"
+expect 0 "$tool" status run.db --json
+[ "$(number budget)" = 30 ] || fail "status: $(cat out)"
+expect 0 "$tool" best run.db
+grep -q '^a = ' out || fail "best: $(cat out)"
+expect 0 "$tool" export run.db -o history.csv
+[ "$(wc -l <history.csv)" -eq 31 ] || fail "export has $(wc -l <history.csv) lines"
+head -n 1 history.csv | grep -q 'id,phase,state,level,a,b,f,sum,feasible,note' || fail "header"
+expect 0 "$tool" export run.db --json
+if command -v gnuplot >/dev/null; then
+    expect 0 "$tool" plot run.db -o history.svg
+    expect 0 "$tool" plot run.db --slices -o slices.svg
+    grep -q '</svg>' history.svg && grep -q '</svg>' slices.svg || fail "pictures"
+fi
+expect 2 "$tool" plot run.db -o history.txt
+
+# Every way an evaluation fails is recorded with its reason.
+cat >fail.yaml <<'YAML'
+variables:
+  - {name: a, lower: 0, upper: 1}
+objective:
+  command: "case {id} in 1) exit 7;; 2) sleep 20;; 3) echo nothing;; 4) kill -9 $$;; 5) echo nan;; *) echo {a};; esac"
+  timeout: 1
+search: {evaluations: 8, initial: 6}
+YAML
+expect 0 "$tool" run fail.yaml
+expect 0 "$tool" export fail.db
+for reason in 'exit status 7' 'took longer than 1 s' 'no number' 'killed by signal 9'; do
+    grep -q "$reason" out || fail "no failure '$reason'"
+done
+
+# Mistakes in the file are found with line and field.
+sed 's/upper: 2}/upper: two}/' run.yaml >bad.yaml
+expect 1 "$tool" run bad.yaml --store bad.db
+grep -q 'bad.yaml:[0-9]*: variables.upper' err || fail "message: $(cat err)"
+sed 's/search:/serach:/' run.yaml >bad.yaml
+expect 1 "$tool" run bad.yaml --store bad.db
+grep -q "serach" err || fail "message: $(cat err)"
+
+# By hand: ask and tell from processes of their own.
+expect 0 "$tool" ask hand.db --lower -1,0 --upper 1,2 --initial 4 --budget 7 -n 3
+[ "$(wc -l <out)" -eq 4 ] || fail "asked for 3 points: $(cat out)"
+expect 0 "$tool" tell hand.db 1 -0.5
+expect 1 "$tool" tell hand.db 1 0.5
+grep -q 'already' err || fail "told twice: $(cat err)"
+expect 0 "$tool" tell hand.db 2 --failed 'mesh folded'
+expect 0 "$tool" tell hand.db 1.25 --point 0.5,1
+printf 'id,f\n3,0.75\n' >table.csv
+expect 0 "$tool" tell hand.db --table table.csv --json
+[ "$(number evaluations)" = 4 ] || fail "tell: $(cat out)"
+expect 0 "$tool" ask hand.db --json
+expect 0 "$tool" ask hand.db --reissue
+grep -q '^5,' out || fail "reissue: $(cat out)"
+expect 2 "$tool" tell hand.db
+expect 1 "$tool" ask none.db
+expect 1 "$tool" best table.csv
+
+# Designs.
+expect 0 "$tool" design annealed-lhs 20 3 --lower 1,1,1 --upper 2,2,2 -o design.csv
+[ "$(wc -l <design.csv)" -eq 21 ] || fail "design"
+expect 0 "$tool" design annealed-lhs 20 3 --json
+below 0.999 "$(number occupied)" "a Latin hypercube occupies all strata"
+expect 2 "$tool" design triangular 20 3
+expect 2 "$tool" design lhs 0 3
+
+[ "$failures" -eq 0 ] && echo "all passed"
+[ "$failures" -eq 0 ]

@@ -1,0 +1,14 @@
+/* The subcommands of bayesopt: each takes its own argument vector and returns the exit code. */
+#ifndef BAYESOPT_TOOL_COMMANDS_H
+#define BAYESOPT_TOOL_COMMANDS_H
+
+int command_run(int argc, char **argv);
+int command_ask(int argc, char **argv);
+int command_tell(int argc, char **argv);
+int command_best(int argc, char **argv);
+int command_status(int argc, char **argv);
+int command_plot(int argc, char **argv);
+int command_design(int argc, char **argv);
+int command_export(int argc, char **argv);
+
+#endif

@@ -1,0 +1,219 @@
+#include "config.h"
+
+#include "cli.h"
+#include "yaml_file.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define REQUIRED(name, part)                                                                       \
+    CYAML_FIELD_STRING_PTR(#name, CYAML_FLAG_POINTER, struct part, name, 1, CYAML_UNLIMITED)
+#define OPTIONAL(name, part)                                                                       \
+    CYAML_FIELD_STRING_PTR(#name, CYAML_FLAG_POINTER_NULL_STR | CYAML_FLAG_OPTIONAL, struct part,  \
+                           name, 1, CYAML_UNLIMITED)
+
+static const cyaml_schema_field_t variable_fields[] = {
+    REQUIRED(name, config_variable),
+    REQUIRED(lower, config_variable),
+    REQUIRED(upper, config_variable),
+    CYAML_FIELD_END,
+};
+static const cyaml_schema_value_t variable = {
+    CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct config_variable, variable_fields),
+};
+static const cyaml_schema_field_t objective_fields[] = {
+    REQUIRED(command, config_objective), OPTIONAL(key, config_objective),
+    OPTIONAL(folder, config_objective),  OPTIONAL(timeout, config_objective),
+    OPTIONAL(retries, config_objective), CYAML_FIELD_END,
+};
+static const cyaml_schema_field_t constraint_fields[] = {
+    REQUIRED(name, config_constraint),
+    OPTIONAL(lower, config_constraint),
+    OPTIONAL(upper, config_constraint),
+    CYAML_FIELD_END,
+};
+static const cyaml_schema_value_t constraint = {
+    CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct config_constraint, constraint_fields),
+};
+static const cyaml_schema_field_t search_fields[] = {
+    OPTIONAL(evaluations, config_search), OPTIONAL(initial, config_search),
+    OPTIONAL(design, config_search),      OPTIONAL(seed, config_search),
+    OPTIONAL(strategy, config_search),    OPTIONAL(noise, config_search),
+    OPTIONAL(workers, config_search),     CYAML_FIELD_END,
+};
+static const cyaml_schema_field_t fields[] = {
+    OPTIONAL(store, config_file),
+    CYAML_FIELD_SEQUENCE("variables", CYAML_FLAG_POINTER, struct config_file, variables, &variable,
+                         1, 1000),
+    CYAML_FIELD_MAPPING("objective", CYAML_FLAG_DEFAULT, struct config_file, objective,
+                        objective_fields),
+    CYAML_FIELD_SEQUENCE("constraints", CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL,
+                         struct config_file, constraints, &constraint, 0, 1000),
+    CYAML_FIELD_MAPPING("search", CYAML_FLAG_OPTIONAL, struct config_file, search, search_fields),
+    CYAML_FIELD_END,
+};
+static const cyaml_schema_value_t schema = {
+    CYAML_VALUE_MAPPING(CYAML_FLAG_POINTER, struct config_file, fields),
+};
+
+static bool number(const char *path, const char *field, const char *text, double otherwise,
+                   double *out)
+{
+    *out = otherwise;
+    if (!text || cli_parse_double(text, out))
+        return true;
+    cli_yaml_fail(path, field, "is '%s', expected a finite number", text);
+    return false;
+}
+
+static bool whole(const char *path, const char *field, const char *text, size_t otherwise,
+                  size_t *out)
+{
+    *out = otherwise;
+    if (!text || cli_parse_size(text, out))
+        return true;
+    cli_yaml_fail(path, field, "is '%s', expected a whole number", text);
+    return false;
+}
+
+static bool check_variables(struct config *c)
+{
+    const struct config_file *f = c->file;
+    for (unsigned j = 0; j < f->variables_count; j++) {
+        const struct config_variable *v = &f->variables[j];
+        if (!number(c->path, "variables.lower", v->lower, 0, &c->lower[j]) ||
+            !number(c->path, "variables.upper", v->upper, 1, &c->upper[j]))
+            return false;
+        if (!(c->lower[j] < c->upper[j])) {
+            cli_yaml_fail(c->path, "variables", "'%s' has bounds %g and %g, expected increasing",
+                          v->name, c->lower[j], c->upper[j]);
+            return false;
+        }
+        for (unsigned k = 0; k < j; k++)
+            if (strcmp(f->variables[k].name, v->name) == 0) {
+                cli_yaml_fail(c->path, "variables", "has two called '%s'", v->name);
+                return false;
+            }
+        c->names.variables[j] = strdup(v->name);
+    }
+    return true;
+}
+
+static bool check_constraints(struct config *c)
+{
+    const struct config_file *f = c->file;
+    for (unsigned k = 0; k < f->constraints_count; k++) {
+        const struct config_constraint *v = &f->constraints[k];
+        if (!number(c->path, "constraints.lower", v->lower, -INFINITY, &c->constraint_lower[k]) ||
+            !number(c->path, "constraints.upper", v->upper, INFINITY, &c->constraint_upper[k]))
+            return false;
+        if (!v->lower && !v->upper) {
+            cli_yaml_fail(c->path, "constraints", "'%s' has neither lower nor upper", v->name);
+            return false;
+        }
+        c->names.constraints[k] = strdup(v->name);
+    }
+    return true;
+}
+
+/* One of a list of names that the library gives for 0, 1, ...; NULL text keeps the default. */
+static bool choice(const char *path, const char *field, const char *text, const char *const *list,
+                   int n, int *out)
+{
+    if (!text)
+        return true;
+    for (int i = 0; i < n; i++)
+        if (strcmp(text, list[i]) == 0) {
+            *out = i;
+            return true;
+        }
+    cli_yaml_fail(path, field, "is '%s', expected one of %s, %s, ...", text, list[0], list[1]);
+    return false;
+}
+
+static bool check_search(struct config *c)
+{
+    static const char *const designs[] = {"uniform", "lhs", "annealed-lhs", "sobol", "stlbo"};
+    static const char *const strategies[] = {"auto", "global", "local"};
+    static const char *const noises[] = {"deterministic", "known", "learned"};
+    const struct config_search *s = &c->file->search;
+    const struct config_objective *o = &c->file->objective;
+    bayesopt_options *options = &c->options;
+    int design = options->initial_kind, strategy = options->strategy, noise = options->noise;
+    size_t seed;
+    bool ok = whole(c->path, "search.evaluations", s->evaluations, 0, &options->max_evaluations) &&
+              whole(c->path, "search.initial", s->initial, 0, &options->initial_n) &&
+              whole(c->path, "search.seed", s->seed, 1, &seed) &&
+              whole(c->path, "search.workers", s->workers, 1, &c->workers) &&
+              choice(c->path, "search.design", s->design, designs, 5, &design) &&
+              choice(c->path, "search.strategy", s->strategy, strategies, 3, &strategy) &&
+              choice(c->path, "search.noise", s->noise, noises, 3, &noise) &&
+              number(c->path, "objective.timeout", o->timeout, 0, &c->timeout) &&
+              whole(c->path, "objective.retries", o->retries, 0, &c->retries);
+    if (ok && noise == BAYESOPT_NOISE_KNOWN) {
+        cli_yaml_fail(c->path, "search.noise", "is 'known', which a command cannot tell");
+        ok = false;
+    }
+    if (ok && (c->workers < 1 || c->workers > 1000)) {
+        cli_yaml_fail(c->path, "search.workers", "is %zu, expected 1 to 1000", c->workers);
+        ok = false;
+    }
+    options->seed = seed;
+    options->initial_kind = (bayesopt_design_kind)design;
+    options->strategy = (bayesopt_strategy)strategy;
+    options->noise = (bayesopt_noise)noise;
+    return ok;
+}
+
+bool config_read(const char *path, struct config *c)
+{
+    *c = (struct config){.path = path};
+    bayesopt_options_init(&c->options);
+    if (!cli_yaml_load(path, &schema, (void **)&c->file))
+        return false;
+    size_t d = c->file->variables_count, m = c->file->constraints_count;
+    c->names = (struct names){.d = d,
+                              .m = m,
+                              .variables = calloc(d, sizeof(char *)),
+                              .constraints = calloc(m + 1, sizeof(char *))};
+    c->lower = malloc(2 * (d + m) * sizeof *c->lower);
+    bool ok = c->names.variables && c->names.constraints && c->lower;
+    if (ok) {
+        c->upper = c->lower + d;
+        c->constraint_lower = c->upper + d;
+        c->constraint_upper = c->constraint_lower + m;
+        ok = check_variables(c) && check_constraints(c) && check_search(c);
+    } else {
+        cli_fail("out of memory");
+    }
+    c->options.n_constraints = m;
+    c->options.constraint_lower = c->constraint_lower;
+    c->options.constraint_upper = c->constraint_upper;
+    if (!ok)
+        config_free(c);
+    return ok;
+}
+
+void config_free(struct config *c)
+{
+    names_free(&c->names);
+    free(c->lower);
+    cli_yaml_free(&schema, c->file);
+    c->file = NULL;
+    c->lower = NULL;
+}
+
+bayesopt_status config_create(const struct config *c, const char *store, bayesopt **bo)
+{
+    bayesopt_status status = bayesopt_create(c->names.d, c->lower, c->upper, &c->options, bo);
+    if (status)
+        return status;
+    status = bayesopt_open_store(*bo, store);
+    if (status) {
+        bayesopt_free(*bo);
+        *bo = NULL;
+    }
+    return status;
+}

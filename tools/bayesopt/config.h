@@ -1,0 +1,51 @@
+/* The YAML file of 'bayesopt run'. */
+#ifndef BAYESOPT_TOOL_CONFIG_H
+#define BAYESOPT_TOOL_CONFIG_H
+
+#include <bayesopt/bayesopt.h>
+#include <stdbool.h>
+
+#include "names.h"
+
+/* As the file has it: numbers are text until they are checked. */
+struct config_variable {
+    char *name, *lower, *upper;
+};
+struct config_objective {
+    char *command, *key, *folder, *timeout, *retries;
+};
+struct config_constraint {
+    char *name, *lower, *upper;
+};
+struct config_search {
+    char *evaluations, *initial, *design, *seed, *strategy, *noise, *workers;
+};
+struct config_file {
+    char *store;
+    struct config_variable *variables;
+    unsigned variables_count;
+    struct config_objective objective;
+    struct config_constraint *constraints;
+    unsigned constraints_count;
+    struct config_search search;
+};
+
+/* Checked. */
+struct config {
+    const char *path;
+    struct config_file *file;
+    struct names names;
+    double *lower, *upper;                       /* [d] */
+    double *constraint_lower, *constraint_upper; /* [m] */
+    double timeout;                              /* seconds */
+    size_t retries, workers;
+    bayesopt_options options;
+};
+
+/* Prints the sentence with line and field on failure. The path is borrowed. */
+bool config_read(const char *path, struct config *config);
+void config_free(struct config *config);
+/* The optimisation it describes, on the store. */
+bayesopt_status config_create(const struct config *config, const char *store, bayesopt **bo);
+
+#endif
