@@ -53,7 +53,8 @@ static void test_all_fields(void)
         "latent: {samples: 500, seed: 7, variance: 0.9}\n"
         "reconstruction: {tolerance: 1e-3}\n"
         "flow: {froude: 0.316, gravity: 9.8, density: 1025}\n"
-        "solver: {formulation: hogner, refine: 2, degree: 4, line_term: off, cutoff_factor: 1.5,\n"
+        "solver: {formulation: hogner, refine: 2, elements_u: 30, elements_v: auto, degree: 4, "
+        "line_term: off, cutoff_factor: 1.5,\n"
         "         cutoff_angle: 5, stem_limit: 0.4, stern_length: 0.3, stern_blend: 0.02,\n"
         "         spectrum_limit: 30, tolerance: 1e-4}\n"
         "constraints: {displacement: 0.02, breadth: 0.2}\n"
@@ -69,6 +70,8 @@ static void test_all_fields(void)
     CU_ASSERT_EQUAL(c.solver.density, 1025);
     CU_ASSERT_EQUAL(c.solver.formulation, IGABEM_HOGNER);
     CU_ASSERT_EQUAL(c.solver.refine, 2);
+    CU_ASSERT_EQUAL(c.solver.elements_u, 30);
+    CU_ASSERT_EQUAL(c.solver.elements_v, -1);
     CU_ASSERT_EQUAL(c.solver.degree, 4);
     CU_ASSERT_EQUAL(c.solver.line_term, 0);
     CU_ASSERT_EQUAL(c.solver.cutoff_angle, 5);
@@ -123,6 +126,7 @@ static const struct {
     {"latent:\n  seed: -1\n", ":6:", "latent.seed"},
     {"grid:\n  sections: 2\n", ":6:", "grid.sections"},
     {"solver:\n  formulation: magic\n", ":6:", "neumann-kelvin-stern"},
+    {"solver:\n  elements_u: many\n", ":6:", "solver.elements_u"},
     {"solver:\n  line_term: maybe\n", ":6:", "true or false"},
     {"solver:\n  tolerance: nan\n", ":6:", "solver.tolerance"},
     {"search:\n  design: random\n", ":6:", "stlbo"},

@@ -123,6 +123,22 @@ static bool read_latent(const char *path, const struct config_file *file, struct
     return read_numbers(path, numbers, sizeof numbers / sizeof *numbers);
 }
 
+/* Spans of the density's own knots; "auto" leaves the choice to the solver's rule. */
+static bool read_elements(const char *path, const char *field, const char *text, int *out)
+{
+    size_t value;
+    if (!text)
+        return true;
+    if (strcmp(text, "auto") == 0) {
+        *out = -1;
+        return true;
+    }
+    if (!read_count(path, field, text, 0, 1000, &value))
+        return false;
+    *out = (int)value;
+    return true;
+}
+
 static bool read_flow(const char *path, const struct config_file *file, igabem_options *solver)
 {
     const struct number numbers[] = {
@@ -143,6 +159,8 @@ static bool read_flow(const char *path, const struct config_file *file, igabem_o
     size_t refine = (size_t)solver->refine, degree = (size_t)solver->degree;
     if (!read_numbers(path, numbers, sizeof numbers / sizeof *numbers) ||
         !read_count(path, "solver.refine", file->solver.refine, 1, 16, &refine) ||
+        !read_elements(path, "solver.elements_u", file->solver.elements_u, &solver->elements_u) ||
+        !read_elements(path, "solver.elements_v", file->solver.elements_v, &solver->elements_v) ||
         !read_count(path, "solver.degree", file->solver.degree, 1, 9, &degree) ||
         !read_switch(path, "solver.line_term", file->solver.line_term, &solver->line_term))
         return false;
@@ -288,6 +306,14 @@ static bool write_digest(FILE *out, const char *field, const char *path)
     return true;
 }
 
+static void write_elements(FILE *out, const char *field, int value)
+{
+    if (value < 0)
+        fprintf(out, "%s = auto\n", field);
+    else
+        fprintf(out, "%s = %d\n", field, value);
+}
+
 static void write_settings(FILE *out, const struct config *c)
 {
     const igabem_options *s = &c->solver;
@@ -305,6 +331,8 @@ static void write_settings(FILE *out, const struct config *c)
     fprintf(out, "solver.formulation = %s\n", igabem_formulation_name(s->formulation));
     fprintf(out, "solver.refine = %d\nsolver.degree = %d\nsolver.line_term = %s\n", s->refine,
             s->degree, s->line_term ? "true" : "false");
+    write_elements(out, "solver.elements_u", s->elements_u);
+    write_elements(out, "solver.elements_v", s->elements_v);
     write_line(out, "solver.cutoff_angle", s->cutoff_angle);
     write_line(out, "solver.cutoff_factor", s->cutoff_factor);
     write_line(out, "solver.stem_limit", s->stem_limit);

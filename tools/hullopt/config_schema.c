@@ -37,6 +37,7 @@ static const cyaml_schema_field_t flow[] = {
 
 static const cyaml_schema_field_t solver[] = {
     OPTIONAL(formulation, config_solver),  OPTIONAL(refine, config_solver),
+    OPTIONAL(elements_u, config_solver),   OPTIONAL(elements_v, config_solver),
     OPTIONAL(degree, config_solver),       OPTIONAL(line_term, config_solver),
     OPTIONAL(cutoff_angle, config_solver), OPTIONAL(cutoff_factor, config_solver),
     OPTIONAL(stem_limit, config_solver),   OPTIONAL(stern_length, config_solver),

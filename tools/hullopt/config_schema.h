@@ -21,8 +21,8 @@ struct config_file {
         char *froude, *gravity, *density;
     } flow;
     struct config_solver {
-        char *formulation, *refine, *degree, *line_term, *cutoff_angle, *cutoff_factor, *stem_limit,
-            *stern_length, *stern_blend, *spectrum_limit, *tolerance;
+        char *formulation, *refine, *elements_u, *elements_v, *degree, *line_term, *cutoff_angle,
+            *cutoff_factor, *stem_limit, *stern_length, *stern_blend, *spectrum_limit, *tolerance;
     } solver;
     struct config_constraints {
         char *displacement, *breadth;

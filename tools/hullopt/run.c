@@ -48,12 +48,14 @@ static char *describe_solver(const igabem_options *o)
         return NULL;
     fprintf(out,
             "formulation = %s\nfroude = %.15g\ngravity = %.15g\ndensity = %.15g\nrefine = %d\n"
+            "elements_u = %d\nelements_v = %d\n"
             "degree = %d\nline_term = %s\ncutoff_angle = %.15g\nstem_limit = %.15g\n"
             "stern_length = %.15g\nstern_blend = %.15g\nspectrum_limit = %.15g\n"
             "tolerance = %.15g\n",
             igabem_formulation_name(o->formulation), o->froude, o->gravity, o->density, o->refine,
-            o->degree, o->line_term ? "true" : "false", o->cutoff_angle, o->stem_limit,
-            o->stern_length, o->stern_blend, o->spectrum_limit, o->tolerance);
+            o->elements_u, o->elements_v, o->degree, o->line_term ? "true" : "false",
+            o->cutoff_angle, o->stem_limit, o->stern_length, o->stern_blend, o->spectrum_limit,
+            o->tolerance);
     if (fclose(out) != 0) {
         free(text);
         return NULL;
