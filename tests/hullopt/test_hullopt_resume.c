@@ -11,7 +11,7 @@
 static struct runner runner;
 static char config[200];
 
-enum { ROWS = 64, MODES = 8, KILLS_MOST = 400 };
+enum { ROWS = 64, MODES = 8, KILLS_MOST = 24 };
 
 struct record {
     size_t n;
@@ -80,7 +80,7 @@ static int same_prefix(const struct record *a, const struct record *b)
 
 static void pause_for(double seconds)
 {
-    struct timespec time = {0, (long)(1e9 * seconds)};
+    struct timespec time = {(time_t)seconds, (long)(1e9 * fmod(seconds, 1))};
     nanosleep(&time, NULL);
 }
 
@@ -89,7 +89,7 @@ static void wait_for_record(const char *name, pid_t child)
 {
     static struct record first, now;
     read_record(name, &first);
-    for (int k = 0; k < 2000; k++) {
+    for (int k = 0; k < 20000; k++) {
         read_record(name, &now);
         siginfo_t info = {0};
         bool over = waitid(P_PID, (id_t)child, &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
@@ -119,26 +119,29 @@ static void test_killed(void)
     unsigned seed = 20240229;
     int kills = 0, useful = 0, ended = 0;
     double patience = 0.3;
-    while (!ended && kills < KILLS_MOST) {
+    while (!ended) {
         seed = seed * 1664525u + 1013904223u;
         pid_t child = runner_start(&runner, again);
-        if (seed >> 31)
+        if (kills == KILLS_MOST)
+            ; /* the last session runs to its end */
+        else if (seed >> 31)
             wait_for_record("broken", child);
         else
             pause_for(patience * (seed >> 8) / 16777216.0);
-        kill(child, SIGKILL);
+        if (kills < KILLS_MOST)
+            kill(child, SIGKILL);
         code = runner_wait(&runner, child);
         if (code > 0)
             fputs(runner.err, stderr);
-        CU_ASSERT_TRUE_FATAL(code <= 0);
+        CU_ASSERT_TRUE_FATAL(code <= 0 && (code == 0 || kills < KILLS_MOST));
         ended = code == 0;
         kills += !ended;
         read_record("broken", &after);
         CU_ASSERT_TRUE_FATAL(same_prefix(&before, &after));
         useful += after.n > before.n;
         /* On a slow machine a session needs longer to get anywhere at all. */
-        if (after.n == before.n && patience < 0.9)
-            patience *= 1.05;
+        if (after.n == before.n && patience < 8)
+            patience *= 1.3;
         before = after;
     }
     CU_ASSERT_TRUE(ended);
