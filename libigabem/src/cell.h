@@ -30,7 +30,7 @@ struct domain {
 
 void domain_whole(const struct element *element, struct domain *domain);
 
-enum { DOMAIN_PIECES = 4 * ELEMENT_SIDE };
+enum { DOMAIN_PIECES = 4 * ELEMENT_SIDE + 2 };
 
 /* Divides an element along the plane x = const; returns the number of pieces. x must be monotone
  * along one direction of the element, as it is on a hull. */

@@ -108,12 +108,12 @@ static void test_many(void)
     igabem_hull *hull = wigley_hull(0.1, 0.0625, 1, 1);
     igabem_options options[N];
     for (int k = 0; k < N; k++)
-        options[k] = setting(8, 3);
+        options[k] = setting(6, 2);
     options[1].froude = 0.4;
     options[2].formulation = IGABEM_NEUMANN_KELVIN_STERN;
     options[3].formulation = IGABEM_DOUBLE_BODY_KOCHIN;
     options[4].formulation = IGABEM_HOGNER;
-    options[5].elements_u = 6;
+    options[5].elements_u = 5;
     igabem_solution *solutions[N];
     CU_ASSERT_EQUAL_FATAL(igabem_solve_many(hull, N, options, solutions), IGABEM_OK);
     for (int k = 0; k < N; k++) {
@@ -133,7 +133,7 @@ static void test_many(void)
 static void test_sensitivity(void)
 {
     igabem_hull *hull = wigley_hull(0.1, 0.0625, 1, 1);
-    igabem_options options = setting(8, 3);
+    igabem_options options = setting(6, 2);
     CU_ASSERT_EQUAL_FATAL(igabem_options_freeze(hull, &options), IGABEM_OK);
     options.sensitivity = 1;
     igabem_solution *solution = solve(hull, &options);
@@ -153,7 +153,7 @@ static void test_sensitivity(void)
 static void test_stern_limits(void)
 {
     igabem_hull *hull = wigley_hull(0.1, 0.0625, 1, 1);
-    igabem_options options = setting(8, 3), stern = options;
+    igabem_options options = setting(6, 2), stern = options;
     stern.formulation = IGABEM_NEUMANN_KELVIN_STERN;
     stern.stern_length = 0.0;
     stern.stern_blend = 0.0;
@@ -202,7 +202,7 @@ static void test_both_sides(void)
 static void test_threads(void)
 {
     igabem_hull *hull = wigley_hull(0.1, 0.0625, 1, 1);
-    igabem_options options = setting(8, 3);
+    igabem_options options = setting(6, 2);
     options.threads = 1;
     double one = cw_of(hull, &options);
     CU_ASSERT_EQUAL(cw_of(hull, &options), one);
