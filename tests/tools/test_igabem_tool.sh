@@ -1,0 +1,107 @@
+#!/usr/bin/env bash
+# The igabem command from the outside: exit codes, messages, JSON, files.
+# usage: test_igabem_tool.sh IGABEM SOURCE_DIR
+set -u
+igabem=$1
+hulls=$2/examples/hulls
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failures=0
+
+check() { # name, condition already evaluated as exit status
+  if [ "$2" -ne 0 ]; then
+    echo "FAILED: $1"
+    failures=$((failures + 1))
+  fi
+}
+
+expect_code() { # expected code, words expected on stderr, command...
+  local code=$1 words=$2
+  shift 2
+  "$@" > "$work/out" 2> "$work/err"
+  local got=$?
+  [ $got -eq "$code" ] && grep -q -- "$words" "$work/err"
+  check "exit $code and '$words' from: $* (got $got: $(head -c 200 "$work/err"))" $?
+}
+
+# Compares a key of the JSON in $work/json with a value: key, expected, tolerance (relative).
+expect_value() {
+  awk -v key="\"$1\":" -v expected="$2" -v tol="$3" '
+    $1 == key { gsub(",", "", $2); found = 1
+                d = $2 - expected; if (d < 0) d = -d
+                s = expected < 0 ? -expected : expected
+                ok = d <= tol * s; value = $2; exit }
+    END { if (!found || !ok) { print key, value, "expected", expected; exit 1 } }' "$work/json"
+  check "$1 = $2" $?
+}
+
+expect_code 2 "command is missing" "$igabem"
+expect_code 2 "unknown command" "$igabem" sail
+expect_code 2 "no HULL" "$igabem" solve --fr 0.3
+expect_code 2 "fr is missing" "$igabem" solve "$hulls/wigley.json"
+expect_code 2 "Froude number > 0" "$igabem" solve "$hulls/wigley.json" --fr -0.3
+expect_code 2 "there is no 'panels'" "$igabem" solve "$hulls/wigley.json" --fr 0.3 --formulation panels
+expect_code 2 "expected an integer" "$igabem" solve "$hulls/wigley.json" --fr 0.3 --refine 0
+expect_code 2 "unknown option" "$igabem" solve "$hulls/wigley.json" --fr 0.3 --speed 3
+expect_code 1 "no-such-file" "$igabem" solve "$work/no-such-file.json" --fr 0.3
+echo '{"format":"nurbs","version":1,"unit":"m","patches":[{]}' > "$work/bad.json"
+expect_code 1 "bad.json" "$igabem" solve "$work/bad.json" --fr 0.3
+expect_code 1 "nothing lies below" "$igabem" check "$hulls/wigley.json" --level -5
+for command in solve hydrostatics check; do
+  "$igabem" $command --help | grep -q "usage: igabem $command"
+  check "$command --help" $?
+done
+"$igabem" --version | grep -q "^igabem [0-9]"
+check "--version" $?
+
+"$igabem" hydrostatics "$hulls/wigley.json" --json > "$work/json"
+check "hydrostatics runs" $?
+expect_value volume 0.00277777778 1e-6
+expect_value wetted_area 0.148790631 1e-6
+expect_value waterplane_area 0.0666666667 1e-6
+expect_value vcb -0.0234375 1e-6
+expect_value beam 0.1 1e-6
+expect_value cb 0.444444444 1e-5
+expect_value cm 0.666666667 1e-4
+expect_value bmt 0.01371428571 1e-5
+"$igabem" hydrostatics "$hulls/dtmb5415.json" --json > "$work/json"
+check "hydrostatics of the DTMB 5415" $?
+expect_value volume 0.5535 0.003
+expect_value wetted_area 4.850 0.003
+expect_value lcb_from_fore 2.890 0.003
+
+"$igabem" check "$hulls/dtmb5415.json" > "$work/out"
+check "check of the DTMB 5415" $?
+grep -q "neumann-kelvin-stern" "$work/out"
+check "the transom chooses its formulation" $?
+
+"$igabem" solve "$hulls/wigley.json" --fr 0.35 --formulation michell --elements 12,4 --json > "$work/json"
+check "michell runs" $?
+expect_value cw 0.001247921974 1e-4
+"$igabem" solve "$hulls/wigley.json" --fr 0.3,0.35 --elements 16,4 --stem-limit none --cutoff 6.1 --json \
+  --waves "$work/w.csv" --waves-grid 20,5 --vtu "$work/h.vtu" --spectrum "$work/s.csv" \
+  --plot "$work/p.svg" > "$work/json"
+check "solve runs" $?
+expect_value cw 0.0012293 0.003 # Fr 0.3, 16 x 4 elements of a separate prototype
+[ "$(grep -c '"condition"' "$work/json")" -eq 2 ]
+check "one result per Froude number" $?
+[ "$(wc -l < "$work/w.csv")" -eq 102 ]
+check "wave file has every point" $?
+grep -q "^x,y,zeta" "$work/w.csv"
+check "wave file has its header" $?
+grep -q "source_density" "$work/h.vtu" && tail -1 "$work/h.vtu" | grep -q "/VTKFile"
+check "hull file is whole" $?
+[ "$(wc -l < "$work/s.csv")" -gt 1000 ]
+check "spectrum file" $?
+tail -1 "$work/p.svg" | grep -q "</svg>"
+check "plot is whole" $?
+"$igabem" solve "$hulls/spheroid.json" --fr 0.5 --elements 8,5 --ladder 3 > "$work/out"
+check "ladder runs" $?
+[ "$(grep -c '%' "$work/out")" -ge 2 ]
+check "ladder prints its changes" $?
+expect_code 1 "expected a name" "$igabem" solve "$hulls/wigley.json" --fr 0.3 --elements 8,3 --waves "$work/w.txt"
+[ ! -e "$work/w.txt" ]
+check "nothing half written" $?
+
+[ $failures -eq 0 ] && echo "all checks passed"
+exit $((failures > 0))
