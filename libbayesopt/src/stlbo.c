@@ -16,40 +16,60 @@ struct school {
     size_t n, d;
     const bayesopt_design_options *options;
     struct region *region;
-    double *learners; /* [n x LEARNERS x d] */
-    double *costs;    /* [LEARNERS] of the present sub-population */
-    double *teachers; /* [n x d] */
-    double *mean, *moved;
+    double *learners;   /* [n x LEARNERS x d] */
+    double *violations; /* [n x LEARNERS] of the input constraints */
+    double *costs;      /* [LEARNERS] of the present sub-population */
+    double *teachers;   /* [n x d] */
+    double *strata;     /* [(n + existing) x d] of teachers and existing points */
+    double *mean, *moved, *moved_strata;
     double unit; /* energy of a typical point: scale of the other terms */
 };
 
-static double cost(struct school *s, size_t self, const double *x)
+static void find_strata(const struct school *s, const double *x, double *strata)
 {
-    const bayesopt_design_options *o = s->options;
-    double energy = 0, shared = 0, bins = (double)(s->n + o->n_existing);
-    for (size_t k = 0; k < s->n + o->n_existing; k++) {
-        const double *other = k < s->n ? s->teachers + k * s->d : o->existing + (k - s->n) * s->d;
-        if (k == self)
-            continue;
-        energy += design_pair_energy(design_distance2(s->d, x, other), o->power);
-        for (size_t j = 0; j < s->d; j++)
-            shared += floor(x[j] * bins) == floor(other[j] * bins);
-    }
-    double violation = s->options->n_constraints ? region_violation(s->region, x) : 0;
-    if (isinf(violation))
-        return INFINITY;
-    /* Static penalty: any violation costs more than the worst feasible place. */
-    double penalty = violation > 0 ? 1e3 * s->unit * (1 + violation) : 0;
-    return energy + o->latin_weight * s->unit * shared / (double)s->d + penalty;
+    double bins = (double)(s->n + s->options->n_existing);
+    for (size_t j = 0; j < s->d; j++)
+        strata[j] = floor(x[j] * bins);
 }
 
+/* Energy and shared strata of a point; once they reach `most` the rest is left out. */
+static double crowding(const struct school *s, size_t self, const double *x, double most)
+{
+    const bayesopt_design_options *o = s->options;
+    double sum = 0, share = o->latin_weight * s->unit / (double)s->d;
+    find_strata(s, x, s->moved_strata);
+    for (size_t k = 0; k < s->n + o->n_existing && sum < most; k++) {
+        const double *other = k < s->n ? s->teachers + k * s->d : o->existing + (k - s->n) * s->d;
+        const double *strata = s->strata + k * s->d;
+        double shared = 0;
+        if (k == self)
+            continue;
+        for (size_t j = 0; j < s->d; j++)
+            shared += s->moved_strata[j] == strata[j] ? 1 : 0;
+        sum += design_pair_energy(design_distance2(s->d, x, other), o->power) + share * shared;
+    }
+    return sum;
+}
+
+/* Static penalty: any violation costs more than the worst feasible place. */
+static double penalty(const struct school *s, double violation)
+{
+    return violation > 0 ? 1e3 * s->unit * (1 + violation) : 0;
+}
+
+/* Constraints may be dear: they are asked only about moves that nothing else rules out. */
 static void try_move(struct school *s, size_t p, size_t i)
 {
     for (size_t j = 0; j < s->d; j++)
         s->moved[j] = fmin(fmax(s->moved[j], 0), 1);
-    double value = cost(s, p, s->moved);
+    double value = crowding(s, p, s->moved, s->costs[i]);
+    if (value >= s->costs[i])
+        return;
+    double violation = s->options->n_constraints ? region_violation(s->region, s->moved) : 0;
+    value += penalty(s, violation);
     if (value < s->costs[i]) {
         s->costs[i] = value;
+        s->violations[p * LEARNERS + i] = violation;
         memcpy(s->learners + (p * LEARNERS + i) * s->d, s->moved, s->d * sizeof *s->moved);
     }
 }
@@ -90,13 +110,15 @@ static double visit(struct school *s, size_t p, struct random_stream *stream)
 {
     double *learners = s->learners + p * LEARNERS * s->d;
     for (size_t i = 0; i < LEARNERS; i++)
-        s->costs[i] = cost(s, p, learners + i * s->d);
+        s->costs[i] = crowding(s, p, learners + i * s->d, INFINITY) +
+                      penalty(s, s->violations[p * LEARNERS + i]);
     teach(s, p, stream);
     learn(s, p, stream);
     size_t best = 0;
     for (size_t i = 1; i < LEARNERS; i++)
         best = s->costs[i] < s->costs[best] ? i : best;
     memcpy(s->teachers + p * s->d, learners + best * s->d, s->d * sizeof *learners);
+    find_strata(s, s->teachers + p * s->d, s->strata + p * s->d);
     return s->costs[best];
 }
 
@@ -124,10 +146,15 @@ static bayesopt_status enrol(struct school *s, struct random_stream *stream)
                                  "design: no point among 2000 uniform ones and 200 projections "
                                  "satisfies the %zu input constraints",
                                  s->region->m);
+        s->violations[i] = s->options->n_constraints ? region_violation(s->region, x) : 0;
     }
-    for (size_t p = 0; p < s->n; p++)
+    for (size_t p = 0; p < s->n; p++) {
         memcpy(s->teachers + p * s->d, s->learners + p * LEARNERS * s->d,
                s->d * sizeof *s->teachers);
+        find_strata(s, s->teachers + p * s->d, s->strata + p * s->d);
+    }
+    for (size_t k = 0; k < s->options->n_existing; k++)
+        find_strata(s, s->options->existing + k * s->d, s->strata + (s->n + k) * s->d);
     for (size_t p = 0; p < s->n; p++)
         for (size_t q = 0; q < p; q++)
             s->unit += 2 / (double)s->n *
@@ -142,12 +169,16 @@ bayesopt_status design_stlbo(size_t n, size_t d, const bayesopt_design_options *
 {
     struct random_stream stream;
     struct school s = {.n = n, .d = d, .options = options, .region = region, .teachers = x};
-    s.learners = malloc((n * LEARNERS * d + LEARNERS + 2 * d) * sizeof *s.learners);
+    size_t others = n + options->n_existing;
+    s.learners = malloc((n * LEARNERS * (d + 1) + LEARNERS + (others + 3) * d) * sizeof(double));
     if (!s.learners)
         return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "design: out of memory");
-    s.costs = s.learners + n * LEARNERS * d;
-    s.mean = s.costs + LEARNERS;
+    s.violations = s.learners + n * LEARNERS * d;
+    s.costs = s.violations + n * LEARNERS;
+    s.strata = s.costs + LEARNERS;
+    s.mean = s.strata + others * d;
     s.moved = s.mean + d;
+    s.moved_strata = s.moved + d;
     random_start(&stream, options->seed, STREAM_TEACH, 0);
     bayesopt_status status = enrol(&s, &stream);
     if (!status)
