@@ -48,6 +48,12 @@ function(isohull_library name)
   if(NOT ISOHULL_SANITIZE)
     target_link_options(${name} PRIVATE -Wl,--no-undefined)
   endif()
+  # Only the library's own prefix leaves it: hidden visibility does not reach the dispatchers of
+  # multiversioned functions.
+  set(exports ${CMAKE_CURRENT_BINARY_DIR}/${name}.map)
+  file(CONFIGURE OUTPUT ${exports} CONTENT "{ global: ${name}_*; local: *; };\n")
+  target_link_options(${name} PRIVATE -Wl,--version-script=${exports})
+  set_target_properties(${name} PROPERTIES LINK_DEPENDS ${exports})
 
   install(TARGETS ${name} EXPORT ${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${name})
