@@ -1,5 +1,6 @@
-/* Writes docs/validation.md: what the solver gives beside exact solutions, other computations and
- * published figures.   usage: igabem_validation HULL.json [SECTION...] > validation.md */
+/* Prints the solver part of docs/validation.md: what the solver gives beside exact solutions, other
+ * computations and published figures.   usage: igabem_validation HULL.json [SECTION...] >
+ * validation.md */
 #include "igabem_validation.h"
 
 #include <math.h>
@@ -22,8 +23,7 @@ static nurbs_surface *take(nurbs_status status, nurbs_surface *result, nurbs_sur
     return result;
 }
 
-/* Even division of every span, one degree higher first: full smoothness, as on the notes' meshes.
- */
+/* Even division of every span, one degree higher first: full smoothness. */
 static nurbs_surface *refined(nurbs_surface *surface, int along, int around)
 {
     const int parts[2] = {along, around};
