@@ -91,17 +91,20 @@ static bayesopt_status new_point(struct bayesopt *bo, struct point **out)
     if (!u)
         return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
     double *x = u + d;
-    if (given < bo->options.initial_n) {
+    size_t row = given % bo->options.initial_n;
+    if (given < problem_initial(bo)) {
         status = make_design(bo);
         if (!status)
-            memcpy(u, bo->design + given * d, d * sizeof *u);
+            memcpy(u, bo->design + row * d, d * sizeof *u);
+        if (given < bo->options.initial_n)
+            level = 0;
     } else {
         status = strategy_propose(bo, id, u, &phase, &level);
     }
     if (!status) {
         problem_from_unit(bo, u, x);
         if (phase == BAYESOPT_PHASE_INITIAL && bo->initial_x)
-            memcpy(x, bo->initial_x + given * d, d * sizeof *x);
+            memcpy(x, bo->initial_x + row * d, d * sizeof *x);
         *out = history_append(bo, id, x, phase);
         if (*out)
             (*out)->level = level;
@@ -177,9 +180,10 @@ bayesopt_status bayesopt_ask_levels(bayesopt *bo, size_t n, double *x, uint64_t 
     if (status) {
         store_rollback(bo);
         history_truncate(bo, before);
-        if (kept)
-            surrogates_restore(&bo->surrogates, bo->d, kept);
     }
+    /* Fits that led to no point leave no trace. */
+    if ((status || !given) && kept)
+        surrogates_restore(&bo->surrogates, bo->d, kept);
     free(kept);
     return status ? status : given ? BAYESOPT_OK : stop;
 }

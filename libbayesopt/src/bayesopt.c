@@ -215,8 +215,13 @@ void problem_from_unit(const struct bayesopt *bo, const double *u, double *x)
 
 size_t problem_budget(const struct bayesopt *bo)
 {
-    return bo->options.max_evaluations ? bo->options.max_evaluations
-                                       : 2 * bo->options.initial_n + 10;
+    return bo->options.max_evaluations ? bo->options.max_evaluations : 2 * problem_initial(bo) + 10;
+}
+
+size_t problem_initial(const struct bayesopt *bo)
+{
+    size_t n = bo->options.initial_n;
+    return bo->options.n_levels == 1 ? n : n + (n + 3) / 4;
 }
 
 size_t bayesopt_dimension(const bayesopt *bo, double *lower, double *upper)
@@ -245,7 +250,7 @@ size_t bayesopt_budget(const bayesopt *bo)
 
 size_t bayesopt_initial_count(const bayesopt *bo)
 {
-    return bo->options.initial_n;
+    return problem_initial(bo);
 }
 
 uint64_t bayesopt_seed(const bayesopt *bo)
@@ -290,7 +295,7 @@ bayesopt_status bayesopt_predict(bayesopt *bo, size_t n, const double *x, double
     for (size_t i = 0; i < n && !status; i++)
         problem_to_unit(bo, x + i * bo->d, u + i * bo->d);
     if (!status)
-        status = bayesopt_gp_predict(gp, n, u, mean, var);
+        status = surrogates_predict(bo, n, u, mean, var);
     for (size_t i = 0; i < n && !status; i++) {
         double half = sqrt(var[i]), centre = mean[i];
         mean[i] = bayesopt_gp_from_model(gp, centre);

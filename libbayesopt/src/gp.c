@@ -35,7 +35,7 @@ void bayesopt_gp_options_init(bayesopt_gp_options *options)
         .prior_shift = 0,
         .prior_common = 1,
         .prior_variance = NAN,
-        .starts = 4,
+        .starts = 3,
         .evaluations = 60,
         .seed = 1,
     };

@@ -334,7 +334,7 @@ static double log_jacobian(const bayesopt_gp *gp)
 }
 
 /* One length scale, all starts; adopts the best. */
-static bayesopt_status fit_isotropic(bayesopt_gp *gp, const size_t *isotropic_groups,
+static bayesopt_status fit_isotropic(bayesopt_gp *gp, const size_t *isotropic_groups, size_t starts,
                                      double *posterior)
 {
     struct fit fit;
@@ -342,7 +342,7 @@ static bayesopt_status fit_isotropic(bayesopt_gp *gp, const size_t *isotropic_gr
     bayesopt_status status = fit_create(&fit, gp, (struct model){true, 0.1}, isotropic_groups);
     if (status)
         return status;
-    for (size_t s = 0; s < gp->options.starts && !status; s++) {
+    for (size_t s = 0; s < starts && !status; s++) {
         make_start(&fit, s, theta);
         status = climb(&fit, theta, gp->options.evaluations / 2 + 1);
     }
@@ -357,11 +357,12 @@ static bayesopt_status fit_isotropic(bayesopt_gp *gp, const size_t *isotropic_gr
 /* Fits one length scale under a transform. value: log posterior of the caller's outputs; square:
  * leave-one-out error as a share of the variance. */
 static bayesopt_status try_transform(bayesopt_gp *gp, bayesopt_transform kind,
-                                     const size_t *isotropic_groups, double *value, double *square)
+                                     const size_t *isotropic_groups, size_t starts, double *value,
+                                     double *square)
 {
     bayesopt_status status = set_transform(gp, kind);
     if (!status)
-        status = fit_isotropic(gp, isotropic_groups, value);
+        status = fit_isotropic(gp, isotropic_groups, starts, value);
     if (status)
         return status;
     *value += log_jacobian(gp);
@@ -379,13 +380,14 @@ static bayesopt_status choose_transform(bayesopt_gp *gp, const size_t *isotropic
                                                BAYESOPT_TRANSFORM_YEO_JOHNSON};
     bayesopt_transform best = BAYESOPT_TRANSFORM_NONE;
     double value, square, least;
-    bayesopt_status status = try_transform(gp, best, isotropic_groups, &value, &least);
+    bayesopt_status status =
+        try_transform(gp, best, isotropic_groups, gp->options.starts, &value, &least);
     if (status)
         return status;
     double most = value + 2, scale = gp->lengthscale[0];
     struct bayesopt_gp kept = *gp;
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds && !status && gp->n > 4; i++) {
-        status = try_transform(gp, kinds[i], isotropic_groups, &value, &square);
+        status = try_transform(gp, kinds[i], isotropic_groups, 2, &value, &square);
         if (!status && value > most && square < least) {
             most = value;
             best = kinds[i];
@@ -485,7 +487,7 @@ static bayesopt_status compare_models(bayesopt_gp *gp, const size_t *isotropic_g
     return status;
 }
 
-static bayesopt_status fit_cold(bayesopt_gp *gp, const size_t *isotropic_groups)
+static bayesopt_status fit_cold_here(bayesopt_gp *gp, const size_t *isotropic_groups)
 {
     double posterior;
     bayesopt_status status;
@@ -493,9 +495,47 @@ static bayesopt_status fit_cold(bayesopt_gp *gp, const size_t *isotropic_groups)
     if (gp->options.transform == BAYESOPT_TRANSFORM_AUTO)
         status = choose_transform(gp, isotropic_groups);
     else
-        status = fit_isotropic(gp, isotropic_groups, &posterior);
+        status = fit_isotropic(gp, isotropic_groups, gp->options.starts, &posterior);
     if (!status && gp->has_parameters)
         status = compare_models(gp, isotropic_groups);
+    return status;
+}
+
+/* With many data the starts and the choice between models use an even selection of them: which mode
+ * is the right one shows on a few hundred, and the full set then only refines it. */
+static bayesopt_status fit_cold(bayesopt_gp *gp, const size_t *isotropic_groups)
+{
+    enum { MOST_COLD = 256 };
+    if (gp->n <= MOST_COLD)
+        return fit_cold_here(gp, isotropic_groups);
+    bayesopt_gp_options options = gp->options;
+    bayesopt_gp *part = NULL;
+    size_t d = gp->d;
+    double *x = malloc(MOST_COLD * (d + 2) * sizeof *x);
+    if (!x)
+        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "gp: out of memory");
+    double *y = x + MOST_COLD * d, *variance = y + MOST_COLD;
+    for (size_t k = 0; k < MOST_COLD; k++) {
+        size_t i = k * gp->n / MOST_COLD;
+        memcpy(x + k * d, gp->x + i * d, d * sizeof *x);
+        y[k] = gp->y[i];
+        variance[k] = gp->variance[i];
+    }
+    options.group = gp->group;
+    bayesopt_status status = bayesopt_gp_create(d, &options, &part);
+    if (!status)
+        status = bayesopt_gp_set_data(part, MOST_COLD, x, y, variance);
+    if (!status)
+        status = bayesopt_gp_fit(part);
+    if (!status)
+        status = set_transform(gp, part->transform.kind);
+    if (!status) {
+        copy_parameters(part, part->lengthscale, gp);
+        gp->has_parameters = true;
+        status = fit_warm(gp, isotropic_groups);
+    }
+    bayesopt_gp_free(part);
+    free(x);
     return status;
 }
 

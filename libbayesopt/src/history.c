@@ -84,9 +84,14 @@ double history_violation(const struct bayesopt *bo, const struct point *point)
     return sum;
 }
 
+bool point_counts(const struct bayesopt *bo, const struct point *point)
+{
+    return point->state == BAYESOPT_STATE_DONE && point->level + 1 == (int)bo->options.n_levels;
+}
+
 bool point_feasible(const struct bayesopt *bo, const struct point *point)
 {
-    return point->state == BAYESOPT_STATE_DONE && history_violation(bo, point) <= 0;
+    return point_counts(bo, point) && history_violation(bo, point) <= 0;
 }
 
 size_t history_best(const struct bayesopt *bo, bool *feasible)
@@ -95,7 +100,7 @@ size_t history_best(const struct bayesopt *bo, bool *feasible)
     double violation = INFINITY, f = INFINITY;
     for (size_t i = 0; i < bo->n_points; i++) {
         const struct point *p = &bo->points[i];
-        if (p->state != BAYESOPT_STATE_DONE || p->level + 1 < (int)bo->options.n_levels)
+        if (!point_counts(bo, p))
             continue;
         double v = history_violation(bo, p);
         if (v < violation || (v == violation && p->f < f)) {

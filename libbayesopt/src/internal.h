@@ -48,10 +48,15 @@ struct bayesopt {
 
 /* bayesopt.c */
 size_t problem_budget(const struct bayesopt *bo);
+/* Points of the initial phase. With two levels the design is evaluated at the cheap one, and the
+ * first quarter of it at the dear one too. */
+size_t problem_initial(const struct bayesopt *bo);
 void problem_to_unit(const struct bayesopt *bo, const double *x, double *u);
 void problem_from_unit(const struct bayesopt *bo, const double *u, double *x);
 
 /* history.c */
+/* Done, at the dear level: a value of the objective proper. */
+bool point_counts(const struct bayesopt *bo, const struct point *point);
 bool point_feasible(const struct bayesopt *bo, const struct point *point);
 /* Index of the best point: feasible with least f, else least violation; SIZE_MAX if none is done.
  */

@@ -56,8 +56,7 @@ static void KERNEL(product)(size_t m, size_t n, size_t k, double sign, const dou
     for (size_t j = 0; j < columns; j += 2 * LANES)
         for (size_t i = 0; i < rows; i += ROWS)
             KERNEL(block)
-            (k, sign, a + i * row_stride, row_stride, column_stride, b + j, ldb, c + i * ldc + j,
-             ldc);
+    (k, sign, a + i * row_stride, row_stride, column_stride, b + j, ldb, c + i * ldc + j, ldc);
     KERNEL(edge)
     (rows, n - columns, k, sign, a, row_stride, column_stride, b + columns, ldb, c + columns, ldc);
     KERNEL(edge)

@@ -21,6 +21,18 @@ struct climber {
     double *best_u, best_value;                  /* of the present ascent */
 };
 
+static bayesopt_status believe(bayesopt_gp *gp, const double *u)
+{
+    double mean, zero = 0;
+    if (!gp)
+        return BAYESOPT_OK;
+    bayesopt_status status = bayesopt_gp_predict(gp, 1, u, &mean, NULL);
+    if (status)
+        return status;
+    double y = bayesopt_gp_from_model(gp, mean);
+    return bayesopt_gp_append(gp, 1, u, &y, &zero);
+}
+
 bayesopt_status search_believe_pending(struct bayesopt *bo)
 {
     struct surrogates *s = &bo->surrogates;
@@ -28,18 +40,12 @@ bayesopt_status search_believe_pending(struct bayesopt *bo)
         const struct point *p = &bo->points[i];
         if (p->state != BAYESOPT_STATE_PENDING)
             continue;
-        for (size_t g = 0; g + 1 < s->count; g++) {
-            double mean, zero = 0;
-            if (!s->gps[g])
-                continue;
-            bayesopt_status status = bayesopt_gp_predict(s->gps[g], 1, p->u, &mean, NULL);
-            if (!status) {
-                double y = bayesopt_gp_from_model(s->gps[g], mean);
-                status = bayesopt_gp_append(s->gps[g], 1, p->u, &y, &zero);
-            }
-            if (status)
-                return status;
-        }
+        bool dear = p->level + 1 == (int)bo->options.n_levels;
+        bayesopt_status status = dear ? BAYESOPT_OK : believe(s->cheap, p->u);
+        for (size_t g = 0; g + 1 < s->count && dear && !status; g++)
+            status = believe(s->gps[g], p->u);
+        if (status)
+            return status;
     }
     return BAYESOPT_OK;
 }
@@ -57,7 +63,7 @@ static bayesopt_status find_incumbent(struct climber *c)
         if (!point_feasible(bo, &bo->points[i]))
             continue;
         if (noisy) {
-            bayesopt_status status = bayesopt_gp_predict(gp, 1, bo->points[i].u, &value, NULL);
+            bayesopt_status status = surrogates_predict(bo, 1, bo->points[i].u, &value, NULL);
             if (status)
                 return status;
         } else {
@@ -104,10 +110,14 @@ static double climb_value(struct climber *c, const double *u, double *gradient)
     const struct surrogates *s = &c->bo->surrogates;
     size_t d = c->bo->d, count = s->count;
     double mean[count], var[count], by_mean[count], by_var[count];
-    for (size_t g = 0; g < count; g++)
-        if (s->gps[g] && bayesopt_gp_predict_gradient(s->gps[g], u, &mean[g], &var[g],
-                                                      c->dmean + g * d, c->dvar + g * d, c->work))
-            return -INFINITY;
+    bayesopt_status status =
+        surrogates_predict_gradient(c->bo, u, &mean[0], &var[0], c->dmean, c->dvar, c->work);
+    for (size_t g = 1; g < count && !status; g++)
+        if (s->gps[g])
+            status = bayesopt_gp_predict_gradient(s->gps[g], u, &mean[g], &var[g], c->dmean + g * d,
+                                                  c->dvar + g * d, c->work);
+    if (status)
+        return -INFINITY;
     double value = combine(c, 1, mean, var, by_mean, by_var);
     for (size_t j = 0; j < d && gradient; j++) {
         gradient[j] = 0;
@@ -216,7 +226,7 @@ static size_t pick_centres(const struct bayesopt *bo, size_t *centres)
         double violation = INFINITY, f = INFINITY;
         for (size_t i = 0; i < bo->n_points; i++) {
             const struct point *p = &bo->points[i];
-            bool taken = p->state != BAYESOPT_STATE_DONE;
+            bool taken = !point_counts(bo, p);
             for (size_t k = 0; k < count; k++)
                 taken = taken || centres[k] == i;
             if (taken)
@@ -274,8 +284,8 @@ static bayesopt_status score(struct climber *c, size_t n, const double *x, doubl
     if (!mean)
         return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
     double *var = mean + n * s->count;
-    bayesopt_status status = BAYESOPT_OK;
-    for (size_t g = 0; g < s->count && !status; g++)
+    bayesopt_status status = surrogates_predict(c->bo, n, x, mean, var);
+    for (size_t g = 1; g < s->count && !status; g++)
         if (s->gps[g])
             status = bayesopt_gp_predict(s->gps[g], n, x, mean + g * n, var + g * n);
     for (size_t i = 0; i < n && !status; i++)
@@ -331,10 +341,11 @@ static bool climber_create(struct climber *c, struct bayesopt *bo, const struct 
 {
     size_t d = bo->d, count = bo->surrogates.count, m = bo->options.n_constraints;
     *c = (struct climber){.bo = bo, .search = search};
-    c->work = malloc((2 * (bo->n_points + 8) + 2 * count * d + 2 * m + d) * sizeof *c->work);
+    size_t work = surrogates_work_size(bo);
+    c->work = malloc((work + 2 * count * d + 2 * m + d) * sizeof *c->work);
     if (!c->work)
         return false;
-    c->dmean = c->work + 2 * (bo->n_points + 8);
+    c->dmean = c->work + work;
     c->dvar = c->dmean + count * d;
     c->constraint_lower = c->dvar + count * d;
     c->constraint_upper = c->constraint_lower + m;

@@ -42,7 +42,7 @@ static struct trust trust_replay(const struct bayesopt *bo)
     double f = INFINITY, violation = INFINITY;
     for (size_t i = 0; i < bo->n_points; i++) {
         const struct point *p = &bo->points[i];
-        if (p->state == BAYESOPT_STATE_PENDING)
+        if (p->state == BAYESOPT_STATE_PENDING || p->level + 1 < (int)bo->options.n_levels)
             continue;
         double v = p->state == BAYESOPT_STATE_DONE ? history_violation(bo, p) : INFINITY;
         bool better = v < violation || (v == violation && p->f < f);
@@ -124,13 +124,42 @@ static bayesopt_phase next_phase(const struct bayesopt *bo, uint64_t id, bool kn
     return polish && id % 2 == 0 ? BAYESOPT_PHASE_POLISH : BAYESOPT_PHASE_LOCAL;
 }
 
+/* The level that removes more of the variance at u for its cost, as long as the proposals at the
+ * cheap level have not cost more than those at the dear one. */
+static bayesopt_status choose_level(const struct bayesopt *bo, const double *u, int *level)
+{
+    double share, cheap = 0, dear = 1;
+    bayesopt_status status = surrogates_cheap_share(bo, u, &share);
+    for (size_t i = 0; i < bo->n_points; i++)
+        if (bo->points[i].phase != BAYESOPT_PHASE_INITIAL)
+            *(bo->points[i].level ? &dear : &cheap) += 1;
+    double ratio = bo->options.level_cost_ratio;
+    *level = share > ratio && cheap * ratio <= dear ? 0 : 1;
+    return status;
+}
+
+/* Whether the largest expected improvement, given as a logarithm in modelled units, is less than
+ * the caller asks for, in units of f at the best value. */
+static bool little_expected(const struct bayesopt *bo, double log_improvement)
+{
+    bool feasible;
+    size_t best = history_best(bo, &feasible);
+    if (!(bo->options.stop_expected_improvement > 0) || !feasible)
+        return false;
+    const bayesopt_gp *gp = bo->surrogates.gps[0];
+    double f = bo->points[best].f, modelled = bayesopt_gp_to_model(gp, f);
+    double lower = bayesopt_gp_from_model(gp, modelled - exp(log_improvement));
+    return f - lower < bo->options.stop_expected_improvement;
+}
+
 bayesopt_status strategy_propose(struct bayesopt *bo, uint64_t id, double *u, bayesopt_phase *phase,
                                  int *level)
 {
     double lower[1000], upper[1000], value;
     bool feasible;
-    size_t done = history_count_state(bo, BAYESOPT_STATE_DONE);
-    (void)level;
+    size_t done = 0;
+    for (size_t i = 0; i < bo->n_points; i++)
+        done += point_counts(bo, &bo->points[i]);
     *phase = BAYESOPT_PHASE_GLOBAL;
     if (done < 2)
         return propose_anywhere(bo, id, u);
@@ -157,7 +186,11 @@ bayesopt_status strategy_propose(struct bayesopt *bo, uint64_t id, double *u, ba
                             .starts = 6};
     status = search_run(bo, &search, u, &value);
     bo->surrogates.fitted = false;
+    if (!status && *phase == BAYESOPT_PHASE_GLOBAL && little_expected(bo, value))
+        return BAYESOPT_STOP_EXPECTED_IMPROVEMENT;
     if (!status)
         keep_apart(bo, id, u);
+    if (!status && bo->options.n_levels == 2)
+        status = choose_level(bo, u, level);
     return status;
 }

@@ -15,14 +15,14 @@ enum { HEAD = 7 };
 bool surrogates_create(struct surrogates *s, size_t d, size_t n_constraints)
 {
     s->count = n_constraints + 2;
-    s->states = calloc(s->count, sizeof *s->states);
+    s->states = calloc(s->count + 1, sizeof *s->states);
     s->gps = calloc(s->count, sizeof *s->gps);
-    double *scales = calloc(s->count * d, sizeof *scales);
+    double *scales = calloc((s->count + 1) * d, sizeof *scales);
     if (!s->states || !s->gps || !scales) {
         free(scales);
         return false;
     }
-    for (size_t i = 0; i < s->count; i++)
+    for (size_t i = 0; i <= s->count; i++)
         s->states[i].lengthscale = scales + i * d;
     return true;
 }
@@ -31,6 +31,7 @@ void surrogates_free(struct surrogates *s)
 {
     for (size_t i = 0; s->gps && i < s->count; i++)
         bayesopt_gp_free(s->gps[i]);
+    bayesopt_gp_free(s->cheap);
     if (s->states)
         free(s->states[0].lengthscale);
     free(s->states);
@@ -39,12 +40,12 @@ void surrogates_free(struct surrogates *s)
 
 size_t surrogates_state_size(const struct surrogates *s, size_t d)
 {
-    return s->count * (HEAD + d);
+    return (s->count + 1) * (HEAD + d);
 }
 
 void surrogates_save(const struct surrogates *s, size_t d, double *values)
 {
-    for (size_t i = 0; i < s->count; i++, values += HEAD + d) {
+    for (size_t i = 0; i <= s->count; i++, values += HEAD + d) {
         const struct model_state *state = &s->states[i];
         double head[HEAD] = {state->known,  state->isotropic, state->wide,     state->cold_n,
                              state->signal, state->noise,     state->transform};
@@ -55,7 +56,7 @@ void surrogates_save(const struct surrogates *s, size_t d, double *values)
 
 void surrogates_restore(struct surrogates *s, size_t d, const double *values)
 {
-    for (size_t i = 0; i < s->count; i++, values += HEAD + d) {
+    for (size_t i = 0; i <= s->count; i++, values += HEAD + d) {
         struct model_state *state = &s->states[i];
         state->known = values[0] != 0;
         state->isotropic = values[1] != 0;
@@ -104,17 +105,51 @@ static void sample_add(struct sample *sample, size_t d, const double *u, double 
     sample->variance[sample->n++] = variance;
 }
 
+/* Values of the objective at one level, of a constraint (dear level), or labels. */
 static void gather(const struct bayesopt *bo, size_t which, struct sample *sample)
 {
+    size_t labels = bo->surrogates.count - 1, cheap = bo->surrogates.count;
     bool merge = bo->options.noise == BAYESOPT_NOISE_DETERMINISTIC;
+    int level = which == cheap ? 0 : (int)bo->options.n_levels - 1;
     for (size_t i = 0; i < bo->n_points; i++) {
         const struct point *p = &bo->points[i];
         double variance = merge ? 0 : fmax(p->variance, 1e-300);
-        if (which == bo->options.n_constraints + 1) {
-            if (p->state != BAYESOPT_STATE_PENDING)
-                sample_add(sample, bo->d, p->u, p->state == BAYESOPT_STATE_DONE ? 1 : -1, 0);
-        } else if (p->state == BAYESOPT_STATE_DONE) {
-            sample_add(sample, bo->d, p->u, which ? p->constraints[which - 1] : p->f, variance);
+        bool done = p->state == BAYESOPT_STATE_DONE;
+        if (which == labels && p->state != BAYESOPT_STATE_PENDING)
+            sample_add(sample, bo->d, p->u, done ? 1 : -1, 0);
+        else if (which != labels && done && p->level == level)
+            sample_add(sample, bo->d, p->u,
+                       which == 0 || which == cheap ? p->f : p->constraints[which - 1], variance);
+    }
+}
+
+/* Gradients enter as values a small step away along each variable (indirect gradient-enhanced
+ * Kriging), for the best points first: f(x + h e_j) = f + h df/dx_j + O(h^2). */
+enum { MOST_STEPS = 400 };
+static const double gradient_step = 2e-3;
+
+static void add_gradients(const struct bayesopt *bo, struct sample *sample)
+{
+    size_t d = bo->d, added = 0;
+    double last = -INFINITY;
+    while (added + d <= MOST_STEPS) {
+        const struct point *next = NULL;
+        for (size_t i = 0; i < bo->n_points; i++) {
+            const struct point *p = &bo->points[i];
+            if (point_counts(bo, p) && p->gradient && p->f > last && (!next || p->f < next->f))
+                next = p;
+        }
+        if (!next)
+            return;
+        last = next->f;
+        for (size_t j = 0; j < d; j++, added++) {
+            double *at = sample->x + sample->n * d;
+            double step = next->u[j] < 0.5 ? gradient_step : -gradient_step;
+            memcpy(at, next->u, d * sizeof *at);
+            at[j] += step;
+            sample->y[sample->n] =
+                next->f + step * (bo->upper[j] - bo->lower[j]) * next->gradient[j];
+            sample->variance[sample->n++] = fmax(next->variance, 1e-300);
         }
     }
 }
@@ -125,9 +160,10 @@ static void model_options(const struct bayesopt *bo, size_t which, bayesopt_gp_o
     o->seed = random_hash(bo->options.seed) + which;
     o->kernel = bo->options.kernel;
     o->scales = bo->options.scales;
-    if (which == 0) {
+    if (which == 0 || which == bo->surrogates.count) {
         o->noise = bo->options.noise;
-        o->transform = bo->options.transform;
+        /* Two levels are added up, in units of the objective. */
+        o->transform = bo->options.n_levels == 1 ? bo->options.transform : BAYESOPT_TRANSFORM_NONE;
     } else if (bo->options.noise != BAYESOPT_NOISE_DETERMINISTIC) {
         o->noise = BAYESOPT_NOISE_LEARNED;
     }
@@ -159,7 +195,8 @@ static bayesopt_status fit_one(struct bayesopt *bo, size_t which, const struct s
                                bool keep)
 {
     struct model_state *state = &bo->surrogates.states[which];
-    bayesopt_gp **gp = &bo->surrogates.gps[which];
+    struct surrogates *s = &bo->surrogates;
+    bayesopt_gp **gp = which == s->count ? &s->cheap : &s->gps[which];
     bayesopt_gp_options options;
     bayesopt_status status = BAYESOPT_OK;
     if (!*gp) {
@@ -196,27 +233,148 @@ static bayesopt_status fit_one(struct bayesopt *bo, size_t which, const struct s
     return status;
 }
 
+/* The cheap level first; then share by regression of dear values on its predictions, and the dear
+ * values of the sample become differences. */
+static bayesopt_status subtract_cheap(struct bayesopt *bo, struct sample *sample, bool keep)
+{
+    struct surrogates *s = &bo->surrogates;
+    struct sample cheap;
+    if (!sample_create(&cheap, bo->n_points, bo->d))
+        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
+    gather(bo, s->count, &cheap);
+    bayesopt_status status = cheap.n ? fit_one(bo, s->count, &cheap, keep) : BAYESOPT_OK;
+    free(cheap.x);
+    if (status || !s->cheap || !sample->n)
+        return status;
+    double *low = malloc(sample->n * sizeof *low), n = (double)sample->n;
+    double mean_low = 0, mean_high = 0, cross = 0, square = 0;
+    if (!low)
+        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
+    status = bayesopt_gp_predict(s->cheap, sample->n, sample->x, low, NULL);
+    for (size_t i = 0; i < sample->n; i++) {
+        low[i] = bayesopt_gp_from_model(s->cheap, low[i]);
+        mean_low += low[i] / n;
+        mean_high += sample->y[i] / n;
+    }
+    for (size_t i = 0; i < sample->n; i++) {
+        cross += (low[i] - mean_low) * (sample->y[i] - mean_high);
+        square += (low[i] - mean_low) * (low[i] - mean_low);
+    }
+    s->share = sample->n > 2 && square > 0 ? cross / square : 1;
+    for (size_t i = 0; i < sample->n; i++)
+        sample->y[i] -= s->share * low[i];
+    free(low);
+    return status;
+}
+
+static bayesopt_status fit_which(struct bayesopt *bo, size_t which, bool keep)
+{
+    struct sample sample;
+    bayesopt_status status = BAYESOPT_OK;
+    if (!sample_create(&sample, bo->n_points + MOST_STEPS, bo->d))
+        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
+    gather(bo, which, &sample);
+    if (which == 0 && bo->options.n_levels == 1)
+        add_gradients(bo, &sample);
+    if (which == 0 && bo->options.n_levels == 2)
+        status = subtract_cheap(bo, &sample, keep);
+    if (!status && sample.n && which == bo->surrogates.count - 1)
+        status = fit_labels(bo, which, &sample, keep);
+    else if (!status && sample.n)
+        status = fit_one(bo, which, &sample, keep);
+    free(sample.x);
+    return status;
+}
+
 bayesopt_status surrogates_fit(struct bayesopt *bo, bool keep)
 {
     struct surrogates *s = &bo->surrogates;
     bayesopt_status status = BAYESOPT_OK;
     size_t failed = history_count_state(bo, BAYESOPT_STATE_FAILED);
     s->fitted = false;
+    bayesopt_gp_free(s->cheap);
+    s->cheap = NULL;
     for (size_t which = 0; which < s->count && !status; which++) {
-        struct sample sample;
         bayesopt_gp_free(s->gps[which]);
         s->gps[which] = NULL;
-        if (which == s->count - 1 && !failed)
-            break;
-        if (!sample_create(&sample, bo->n_points, bo->d))
-            return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
-        gather(bo, which, &sample);
-        if (sample.n && which == s->count - 1)
-            status = fit_labels(bo, which, &sample, keep);
-        else if (sample.n)
-            status = fit_one(bo, which, &sample, keep);
-        free(sample.x);
+        if (which + 1 < s->count || failed)
+            status = fit_which(bo, which, keep);
     }
     s->fitted = !status && s->gps[0] != NULL;
+    return status;
+}
+
+/* What one modelled unit of the cheap level is in units of the difference's model. */
+static double cheap_factor(const struct surrogates *s)
+{
+    return s->share * s->cheap->transform.scale / s->gps[0]->transform.scale;
+}
+
+static double cheap_offset(const struct surrogates *s)
+{
+    return s->share * s->cheap->transform.offset / s->gps[0]->transform.scale;
+}
+
+bayesopt_status surrogates_predict(const struct bayesopt *bo, size_t n, const double *x,
+                                   double *mean, double *var)
+{
+    const struct surrogates *s = &bo->surrogates;
+    bayesopt_status status = bayesopt_gp_predict(s->gps[0], n, x, mean, var);
+    if (status || !s->cheap)
+        return status;
+    double *low = malloc(2 * (n ? n : 1) * sizeof *low), factor = cheap_factor(s);
+    if (!low)
+        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
+    status = bayesopt_gp_predict(s->cheap, n, x, low, var ? low + n : NULL);
+    for (size_t i = 0; i < n && !status; i++) {
+        mean[i] += cheap_offset(s) + factor * low[i];
+        if (var)
+            var[i] += factor * factor * low[n + i];
+    }
+    free(low);
+    return status;
+}
+
+bayesopt_status surrogates_predict_gradient(const struct bayesopt *bo, const double *x,
+                                            double *mean, double *var, double *dmean, double *dvar,
+                                            double *work)
+{
+    const struct surrogates *s = &bo->surrogates;
+    bayesopt_status status =
+        bayesopt_gp_predict_gradient(s->gps[0], x, mean, var, dmean, dvar, work);
+    if (status || !s->cheap)
+        return status;
+    double low, low_var, factor = cheap_factor(s), dlow[1000], dlow_var[1000];
+    status = bayesopt_gp_predict_gradient(s->cheap, x, &low, &low_var, dlow, dlow_var, work);
+    *mean += cheap_offset(s) + factor * low;
+    *var += factor * factor * low_var;
+    for (size_t j = 0; j < bo->d; j++) {
+        dmean[j] += factor * dlow[j];
+        dvar[j] += factor * factor * dlow_var[j];
+    }
+    return status;
+}
+
+size_t surrogates_work_size(const struct bayesopt *bo)
+{
+    const struct surrogates *s = &bo->surrogates;
+    size_t most = s->cheap ? s->cheap->n : 0;
+    for (size_t g = 0; g < s->count; g++)
+        most = s->gps[g] && s->gps[g]->n > most ? s->gps[g]->n : most;
+    return 2 * most;
+}
+
+bayesopt_status surrogates_cheap_share(const struct bayesopt *bo, const double *x, double *share)
+{
+    const struct surrogates *s = &bo->surrogates;
+    double mean, low, total;
+    *share = 0;
+    if (!s->cheap || !s->gps[0])
+        return BAYESOPT_OK;
+    bayesopt_status status = surrogates_predict(bo, 1, x, &mean, &total);
+    if (!status)
+        status = bayesopt_gp_predict(s->cheap, 1, x, &mean, &low);
+    if (!status && total > 0)
+        *share = cheap_factor(s) * cheap_factor(s) * low / total;
     return status;
 }

@@ -16,10 +16,14 @@ struct model_state {
 };
 
 struct surrogates {
-    size_t count; /* objective, outcome constraints, feasibility */
-    struct model_state *states;
-    bayesopt_gp **gps; /* NULL where there is nothing to model */
-    bool fitted;       /* for the present history */
+    size_t count;               /* objective, outcome constraints, feasibility */
+    struct model_state *states; /* [count + 1], the last of the cheap level */
+    bayesopt_gp **gps;          /* [count], NULL where there is nothing to model */
+    /* With two levels f = share * cheap + difference (Kennedy and O'Hagan, Biometrika 87 (2000) 1):
+     * cheap is modelled by this, the difference by gps[0]. */
+    bayesopt_gp *cheap;
+    double share;
+    bool fitted; /* for the present history */
 };
 
 bool surrogates_create(struct surrogates *surrogates, size_t d, size_t n_constraints);
@@ -32,5 +36,17 @@ void surrogates_restore(struct surrogates *surrogates, size_t d, const double *v
 
 /* Fits all models to the history. keep: the new hyper-parameters become the next warm start. */
 bayesopt_status surrogates_fit(struct bayesopt *bo, bool keep);
+
+/* Posterior of the objective at n points of [0,1]^d in units of gps[0], both levels combined. */
+bayesopt_status surrogates_predict(const struct bayesopt *bo, size_t n, const double *x,
+                                   double *mean, double *var);
+/* The same at one point with gradients [d]; work [surrogates_work_size()]. */
+bayesopt_status surrogates_predict_gradient(const struct bayesopt *bo, const double *x,
+                                            double *mean, double *var, double *dmean, double *dvar,
+                                            double *work);
+/* Scratch that predictions with gradients of any of the models need, in doubles. */
+size_t surrogates_work_size(const struct bayesopt *bo);
+/* Share of the posterior variance at a point that an evaluation of the cheap level would remove. */
+bayesopt_status surrogates_cheap_share(const struct bayesopt *bo, const double *x, double *share);
 
 #endif

@@ -141,8 +141,9 @@ static bool check_search(struct config *c)
     const struct config_search *s = &c->file->search;
     const struct config_objective *o = &c->file->objective;
     bayesopt_options *options = &c->options;
-    int design = options->initial_kind, strategy = options->strategy, noise = options->noise;
-    size_t seed;
+    int design = (int)options->initial_kind, strategy = (int)options->strategy;
+    int noise = (int)options->noise;
+    size_t seed = 1;
     bool ok = whole(c->path, "search.evaluations", s->evaluations, 0, &options->max_evaluations) &&
               whole(c->path, "search.initial", s->initial, 0, &options->initial_n) &&
               whole(c->path, "search.seed", s->seed, 1, &seed) &&

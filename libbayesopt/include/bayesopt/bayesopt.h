@@ -43,7 +43,7 @@ typedef enum bayesopt_phase {
     BAYESOPT_PHASE_INITIAL,  /**< the initial design */
     BAYESOPT_PHASE_GLOBAL,   /**< maximiser of the acquisition over the whole box */
     BAYESOPT_PHASE_LOCAL,    /**< maximiser of the acquisition over the trust region */
-    BAYESOPT_PHASE_POLISH,   /**< minimiser of a local quadratic model around the best point */
+    BAYESOPT_PHASE_POLISH,   /**< minimiser of the model's mean over the trust region */
     BAYESOPT_PHASE_EXTERNAL, /**< told by the caller without having been asked */
 } bayesopt_phase;
 
@@ -96,7 +96,9 @@ typedef struct bayesopt_options {
     bayesopt_strategy strategy;   /**< default BAYESOPT_STRATEGY_AUTO */
     bool polish; /**< allow polishing steps with BAYESOPT_STRATEGY_AUTO; default true */
 
-    size_t n_levels;         /**< 1, or 2: a cheap level 0 beside the dear level 1; default 1 */
+    size_t n_levels; /**< 1, or 2: a cheap level 0 beside the dear level 1, whose value counts; the
+                          initial design is then evaluated at level 0 and its first quarter at level
+                          1 too; every evaluation counts against the budget; default 1 */
     double level_cost_ratio; /**< cost of the cheap level over that of the dear one; default 0.1 */
 
     size_t stop_no_improvement; /**< stop after so many proposals in a row without improvement;
@@ -176,9 +178,10 @@ BAYESOPT_API bayesopt_status bayesopt_ask_levels(bayesopt *bo, size_t n, double 
 typedef struct bayesopt_result {
     double f;                  /**< the objective; not finite = failed */
     const double *constraints; /**< [n_constraints] borrowed; NULL if there are none */
-    const double *gradient;    /**< [d] df/dx borrowed; NULL if not known */
-    double variance;           /**< of f, with BAYESOPT_NOISE_KNOWN; else 0 */
-    const char *note;          /**< copied into the history; NULL for none */
+    const double
+        *gradient;    /**< [d] df/dx borrowed; NULL if not known. The best 400/d points' are used */
+    double variance;  /**< of f, with BAYESOPT_NOISE_KNOWN; else 0 */
+    const char *note; /**< copied into the history; NULL for none */
 } bayesopt_result;
 
 /**

@@ -89,7 +89,7 @@ typedef struct bayesopt_gp_options {
     double prior_shift;    /**< default 0 */
     double prior_common;   /**< default 1 */
     double prior_variance; /**< default NAN: 0.1 or 1, the likelier */
-    size_t starts;         /**< optimiser starts of a cold fit; default 4 */
+    size_t starts;         /**< starts with one length scale of a cold fit; default 3 */
     size_t evaluations;    /**< likelihood evaluations per start; default 60 */
     uint64_t seed;         /**< of the random starts; default 1 */
 } bayesopt_gp_options;
@@ -128,8 +128,9 @@ BAYESOPT_API bayesopt_status bayesopt_gp_set_parameters(bayesopt_gp *gp,
 /**
  * Maximum a posteriori hyper-parameters on standardised, transformed outputs, then conditions.
  * Starts from the present hyper-parameters when there are any (a warm fit: one start), else from
- * options.starts starts. Never fails for lack of positive definiteness: jitter is raised, at worst
- * the previous hyper-parameters stay. O(n^3) per likelihood evaluation.
+ * options.starts starts with one length scale, refined for every model compared. Never fails for
+ * lack of positive definiteness: jitter is raised, at worst the previous hyper-parameters stay.
+ * O(n^3) per likelihood evaluation.
  */
 BAYESOPT_API bayesopt_status bayesopt_gp_fit(bayesopt_gp *gp);
 
