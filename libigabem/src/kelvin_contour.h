@@ -40,7 +40,7 @@ struct kelvin_nodes {
 /* e = e^u and g = e^-u at the nodes. */
 KELVIN_INLINE void kelvin_place_nodes(const struct kelvin_wave_points *p, const kelvin_vec *e,
                                       const kelvin_vec *g, enum kelvin_kind kind,
-                                      struct kelvin_nodes *nodes)
+                                      enum kelvin_precision precision, struct kelvin_nodes *nodes)
 {
     kelvin_vec x = p->x, y = p->y, z = p->z;
     kelvin_vec ch = 0.5 * (*e + *g), sh = 0.5 * (*e - *g), ch_sq = ch * ch;
@@ -50,7 +50,7 @@ KELVIN_INLINE void kelvin_place_nodes(const struct kelvin_wave_points *p, const 
     kelvin_vec a = ych2 - x * sh, A = a * ch;
     kelvin_vec dA = (2 * y * sh2 - x * ch) * ch + a * sh;
     kelvin_vec inner = ych2 * ych2 + 1, square = x * x + ch_sq * inner, rroot;
-    kelvin_vrsqrt(&square, &rroot);
+    kelvin_vrsqrt_to(&square, precision, &rroot);
     kelvin_vec B = z * ch2 * ch + 0.5 * square * rroot;
     kelvin_vec dB = z * (2 * sh2 * ch + ch2 * sh) +
                     0.5 * ch * rroot * (sh * inner + 2 * ch * (y * y) * ch2 * sh2);
@@ -59,10 +59,10 @@ KELVIN_INLINE void kelvin_place_nodes(const struct kelvin_wave_points *p, const 
         dB += 2 * p->e2 * ch2 * (4 * sh2 * ch + ch2 * sh);
     }
     kelvin_vec modulus = A * A + B * B, rmod, rcos;
-    kelvin_vrsqrt(&modulus, &rmod);
+    kelvin_vrsqrt_to(&modulus, precision, &rmod);
     nodes->slope = 0.5 * (dA * B - dB * A) * (rmod * rmod);
     kelvin_vec cos2 = B * rmod, sin2 = A * rmod, cos_sq = 0.5 + 0.5 * cos2;
-    kelvin_vrsqrt(&cos_sq, &rcos);
+    kelvin_vrsqrt_to(&cos_sq, precision, &rcos);
     kelvin_vec cosine = cos_sq * rcos, sine = 0.5 * sin2 * rcos;
     nodes->C.re = ch * cosine;
     nodes->C.im = sh * sine;
@@ -103,7 +103,7 @@ KELVIN_INLINE void kelvin_bandwidth(const struct kelvin_wave_points *p,
     *frequency = first.im + n->slope * first.re;
     *frequency = KELVIN_MAX(*frequency, -*frequency);
     kelvin_vec square = second.re * second.re + second.im * second.im + 1e-280;
-    kelvin_vrsqrt(&square, &root);
+    kelvin_vrsqrt_to(&square, KELVIN_ROUGH, &root);
     *curvature = square * root * stretch;
 }
 

@@ -8,8 +8,13 @@
 #include <string.h>
 
 #if defined(__x86_64__) && defined(__linux__) && !defined(ISOHULL_NO_MULTIVERSION)
+#if defined(__clang__)
+/* clang accepts the level names but builds a resolver that does not test for them. */
+#define KELVIN_MULTIVERSION __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
 #define KELVIN_MULTIVERSION                                                                        \
     __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#endif
 #else
 #define KELVIN_MULTIVERSION
 #endif

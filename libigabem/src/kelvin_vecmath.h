@@ -9,12 +9,13 @@
 /* Adding 1.5 2^52 leaves the nearest integer in the low bits of a double. */
 #define KELVIN_ROUNDER 0x1.8p52
 
-/* Lane by lane: mask is all ones or all zeros, as comparisons give it. */
+/* Lane by lane, on finite numbers: a mask of all ones where a < b, taken from the sign of a - b,
+ * because compilers break 512-bit comparisons up into single lanes. */
+#define KELVIN_LESS(a, b) (0 - ((kelvin_bits)((a) - (b)) >> 63))
 #define KELVIN_SELECT(mask, a, b)                                                                  \
-    ((kelvin_vec)(((kelvin_bits)(a) & (kelvin_bits)(mask)) |                                       \
-                  ((kelvin_bits)(b) & ~(kelvin_bits)(mask))))
-#define KELVIN_MAX(a, b) KELVIN_SELECT((a) > (b), a, b)
-#define KELVIN_MIN(a, b) KELVIN_SELECT((a) < (b), a, b)
+    ((kelvin_vec)(((kelvin_bits)(a) & (mask)) | ((kelvin_bits)(b) & ~(mask))))
+#define KELVIN_MAX(a, b) KELVIN_SELECT(KELVIN_LESS(b, a), a, b)
+#define KELVIN_MIN(a, b) KELVIN_SELECT(KELVIN_LESS(a, b), a, b)
 
 /* e^x for |x| < 708: 2^n e^r with |r| <= ln(2)/2, Taylor to r^12 (relative error 2e-16 truncated).
  */
@@ -55,17 +56,28 @@ KELVIN_INLINE void kelvin_vsincos(const kelvin_vec *px, kelvin_vec *sine, kelvin
     *cosine = (kelvin_vec)(((cbits & ~odd) | (sbits & odd)) ^ (((k + 1) & 2) << 62));
 }
 
+/* How good 1/sqrt is: exact to rounding, or to 1e-5 for what only places nodes. */
+enum kelvin_precision { KELVIN_FULL, KELVIN_ROUGH };
+
 /* 1/sqrt(x) for normal x > 0: a linear guess on the exponent and mantissa bits (relative error
  * 0.035), then Newton steps, each of which squares it times 3/2. */
-KELVIN_INLINE void kelvin_vrsqrt(const kelvin_vec *px, kelvin_vec *out)
+KELVIN_INLINE void kelvin_vrsqrt_to(const kelvin_vec *px, enum kelvin_precision precision,
+                                    kelvin_vec *out)
 {
     kelvin_vec half = *px * 0.5;
     kelvin_vec y = (kelvin_vec)(UINT64_C(0x5fe6eb50c7b537a9) - ((kelvin_bits)*px >> 1));
     y *= 1.5 - half * y * y;
     y *= 1.5 - half * y * y;
-    y *= 1.5 - half * y * y;
-    y += y * (0.5 - half * y * y);
+    if (precision == KELVIN_FULL) {
+        y *= 1.5 - half * y * y;
+        y += y * (0.5 - half * y * y);
+    }
     *out = y;
+}
+
+KELVIN_INLINE void kelvin_vrsqrt(const kelvin_vec *px, kelvin_vec *out)
+{
+    kelvin_vrsqrt_to(px, KELVIN_FULL, out);
 }
 
 /* Natural logarithm of normal x > 0 to 1e-9: places nodes, where nothing better is needed. ln x = e

@@ -17,7 +17,7 @@ KELVIN_INLINE void add_nodes(const struct kelvin_wave_points *p, const kelvin_ve
 {
     struct kelvin_nodes nodes;
     kelvin_vec size, sine, cosine, floor = {0};
-    kelvin_place_nodes(p, e, g, kind, &nodes);
+    kelvin_place_nodes(p, e, g, kind, KELVIN_FULL, &nodes);
     floor -= 700;
     kelvin_vec exponent = KELVIN_MAX(nodes.f.re, floor);
     kelvin_vexp(&exponent, &size);
@@ -59,7 +59,7 @@ KELVIN_INLINE void add_window(const struct kelvin_wave_points *p, double low, do
     kelvin_vexp(&jump, &ratio);
     double up = ratio[0], down = ratio[1];
     for (long k = 0; k < count; k += KELVIN_LANES) {
-        kelvin_bits inside = (kelvin_bits)(index < (double)(count - k));
+        kelvin_bits inside = KELVIN_LESS(index, (double)(count - k));
         add_nodes(p, &e, &g, &inside, kind, sum);
         e *= up;
         g *= down;

@@ -44,7 +44,7 @@ KELVIN_INLINE void kelvin_probe_at(const struct kelvin_wave_points *p, const kel
     kelvin_vec e, g, minus = -*u;
     kelvin_vexp(u, &e);
     kelvin_vexp(&minus, &g);
-    kelvin_place_nodes(p, &e, &g, kind, &nodes);
+    kelvin_place_nodes(p, &e, &g, kind, KELVIN_ROUGH, &nodes);
     kelvin_bandwidth(p, &nodes, kind, &probe->frequency, &probe->curvature);
     probe->u = *u;
     probe->above = nodes.f.re + kelvin_weight(kind) * KELVIN_MAX(*u, minus) + KELVIN_CUT;
@@ -55,8 +55,8 @@ KELVIN_INLINE void kelvin_demand(const struct kelvin_probe *at, kelvin_vec *dema
 {
     kelvin_vec zero = {0}, square = 2 * at->curvature * at->above, root;
     square = KELVIN_MAX(square, zero) + 1e-280;
-    kelvin_vrsqrt(&square, &root);
-    *demand = KELVIN_SELECT(at->above > 0, at->frequency + square * root, zero);
+    kelvin_vrsqrt_to(&square, KELVIN_ROUGH, &root);
+    *demand = KELVIN_SELECT(KELVIN_LESS(zero, at->above), at->frequency + square * root, zero);
 }
 
 /* The largest of *demand and of B at `to` and half way there, up to the cut at most. */
@@ -66,7 +66,7 @@ KELVIN_INLINE void kelvin_demand_between(const struct kelvin_probe *from,
     kelvin_vec one = {0}, zero = {0}, part, here;
     one += 1;
     part = from->above / (from->above - to->above);
-    kelvin_bits leaves = (kelvin_bits)(from->above > 0) & (kelvin_bits)(to->above < 0);
+    kelvin_bits leaves = KELVIN_LESS(zero, from->above) & KELVIN_LESS(to->above, zero);
     part = 0.5 * KELVIN_SELECT(leaves, part, one);
     struct kelvin_probe middle = {zero, from->frequency + part * (to->frequency - from->frequency),
                                   from->curvature + part * (to->curvature - from->curvature),
@@ -88,22 +88,24 @@ KELVIN_INLINE void kelvin_probe_outwards(const struct kelvin_wave_points *p,
                                          const kelvin_vec *start, const kelvin_vec *reach,
                                          enum kelvin_kind kind, struct kelvin_range *seen)
 {
-    static const double fraction[] = {0.1, 0.2, 0.32, 0.46, 0.62, 0.8, 1};
+    static const double fraction[] = {0.12, 0.26, 0.42, 0.6, 0.8, 1};
     struct kelvin_probe before, now;
+    kelvin_vec zero = {0};
     kelvin_probe_at(p, start, kind, &before);
     kelvin_demand(&before, &seen->demand);
     seen->last = *start;
-    for (int k = 0; k < 7; k++, before = now) {
+    for (int k = 0; k < 6; k++, before = now) {
         kelvin_vec u = *start + *reach * fraction[k];
         kelvin_probe_at(p, &u, kind, &now);
         kelvin_demand_between(&before, &now, &seen->demand);
         /* Half way between where the chord crosses the cut and the outer end: the level is concave.
          */
-        kelvin_bits leaves = (kelvin_bits)(before.above > 0) & (kelvin_bits)(now.above <= 0);
+        kelvin_bits counts = KELVIN_LESS(zero, now.above);
+        kelvin_bits leaves = KELVIN_LESS(zero, before.above) & ~counts;
         kelvin_vec crossing =
             before.u + (u - before.u) * (before.above / (before.above - now.above));
         seen->last = KELVIN_SELECT(leaves, 0.5 * (crossing + u), seen->last);
-        seen->last = KELVIN_SELECT(now.above > 0, u, seen->last);
+        seen->last = KELVIN_SELECT(counts, u, seen->last);
     }
 }
 
@@ -125,7 +127,7 @@ KELVIN_INLINE void kelvin_asinh(const kelvin_vec *t, kelvin_vec *u)
 KELVIN_INLINE void kelvin_find_saddles(const struct kelvin_wave_points *p, struct kelvin_saddles *s)
 {
     kelvin_vec x = p->x, y = p->y, D = x * x - 8 * (y * y), tiny = x * x * 1e-30, rroot;
-    s->real = (kelvin_bits)(D > 0);
+    s->real = KELVIN_LESS(0 * D, D);
     D = KELVIN_MAX(D, tiny);
     kelvin_vrsqrt(&D, &rroot);
     kelvin_vec root = D * rroot, sum = x + root, least = 1e-13 * x, y4 = 4 * y;
@@ -146,7 +148,7 @@ struct kelvin_reach {
 
 KELVIN_INLINE void kelvin_sqrt(const kelvin_vec *square, kelvin_vec *root)
 {
-    kelvin_vrsqrt(square, root);
+    kelvin_vrsqrt_to(square, KELVIN_ROUGH, root);
     *root *= *square;
 }
 
@@ -220,7 +222,7 @@ KELVIN_INLINE void kelvin_bound_reach(const struct kelvin_wave_points *p,
 KELVIN_INLINE void kelvin_step(const kelvin_vec *demand, kelvin_vec *step)
 {
     kelvin_vec square = *demand * *demand + 2 * KELVIN_STRIP * KELVIN_CUT;
-    kelvin_vrsqrt(&square, step);
+    kelvin_vrsqrt_to(&square, KELVIN_ROUGH, step);
     *step *= KELVIN_SAFETY * 6.2831853071795865;
 }
 
@@ -243,12 +245,12 @@ KELVIN_INLINE void kelvin_find_dip(const struct kelvin_wave_points *p,
         return;
     struct kelvin_probe before, now;
     kelvin_probe_at(p, &s->u1, kind, &before);
-    for (int k = 1; k <= 8; k++, before = now) {
-        kelvin_vec u = s->u1 + gap * (k / 8.0), demand = zero;
+    for (int k = 1; k <= 6; k++, before = now) {
+        kelvin_vec u = s->u1 + gap * (k / 6.0), demand = zero;
         kelvin_probe_at(p, &u, kind, &now);
         kelvin_demand_between(&before, &now, &demand);
         demand = KELVIN_SELECT(*both, demand, zero);
-        kelvin_bits below = *both & (kelvin_bits)(now.above < -2);
+        kelvin_bits below = *both & KELVIN_LESS(now.above, zero - 2);
         kelvin_vec larger = KELVIN_MAX(dip->demand_before, demand);
         dip->demand_before = KELVIN_SELECT(dip->split, dip->demand_before, larger);
         dip->from = KELVIN_SELECT(below & ~dip->split, u, dip->from);
@@ -274,7 +276,7 @@ KELVIN_INLINE void kelvin_find_windows(const struct kelvin_wave_points *p, enum 
     kelvin_vec span = reach.left - s.u1;
     kelvin_probe_outwards(p, &s.u1, &span, kind, &left);
     /* Outwards from u2 if it counts or if the pair is complex, from u1 otherwise. */
-    kelvin_bits both = s.real & (kelvin_bits)(at_u2.above > 0), single = s.real & ~both;
+    kelvin_bits both = s.real & KELVIN_LESS(0 * at_u2.above, at_u2.above), single = s.real & ~both;
     kelvin_vec from = KELVIN_SELECT(single, s.u1, s.u2);
     span = KELVIN_SELECT(single, reach.between - s.u1, reach.right - s.u2);
     kelvin_probe_outwards(p, &from, &span, kind, &right);
