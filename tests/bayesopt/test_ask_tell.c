@@ -125,7 +125,8 @@ static void failures_are_learnt(void)
             CU_ASSERT_EQUAL(bayesopt_tell(bo, id, bowl(2, x), NULL), BAYESOPT_OK);
         }
     }
-    /* The best place is on the edge of the failures: trials just beyond it go on, deep ones stop. */
+    /* The best place is on the edge of the failures: trials just beyond it go on, deep ones stop.
+     */
     CU_ASSERT(late_failures < 5);
     CU_ASSERT_EQUAL(bayesopt_best(bo, x, &f, NULL), BAYESOPT_OK);
     /* min((0.2)^2 + 0, 0 + 2 (0.2)^2) on the feasible side */
@@ -446,7 +447,128 @@ static void loop_with_callback(void)
     bayesopt_free(bo);
 }
 
+/* A waved bowl in six variables, twelve points and twelve proposals: with gradients the minimum is
+ * found far closer. */
+static double best_with_gradients(bool told)
+{
+    bayesopt_options options;
+    bayesopt_options_init(&options);
+    options.initial_n = 12;
+    options.max_evaluations = 24;
+    bayesopt *bo = make(6, &options);
+    double x[6], gradient[6], f;
+    uint64_t id;
+    while (bayesopt_ask(bo, 1, x, &id) == BAYESOPT_OK) {
+        bayesopt_result result = {.f = bowl(6, x), .gradient = told ? gradient : NULL};
+        for (size_t j = 0; j < 6; j++) {
+            result.f += 0.2 * cos(2 * x[j]);
+            gradient[j] = 2 * (x[j] - 0.3) * (1 + (double)j) - 0.4 * sin(2 * x[j]);
+        }
+        CU_ASSERT_EQUAL(bayesopt_tell_result(bo, id, &result), BAYESOPT_OK);
+    }
+    CU_ASSERT_EQUAL(bayesopt_best(bo, x, &f, NULL), BAYESOPT_OK);
+    bayesopt_free(bo);
+    /* The minimum, variable by variable, by Newton's iteration. */
+    for (size_t j = 0; j < 6; j++) {
+        double at = 0.3, w = 1 + (double)j;
+        for (int i = 0; i < 50; i++)
+            at -= (2 * w * (at - 0.3) - 0.4 * sin(2 * at)) / (2 * w - 0.8 * cos(2 * at));
+        f -= w * (at - 0.3) * (at - 0.3) + 0.2 * cos(2 * at);
+    }
+    return f;
+}
+
+static void gradients_help(void)
+{
+    double without = best_with_gradients(false), with = best_with_gradients(true);
+    CU_ASSERT(with > -1e-9 && with < 1e-3);
+    CU_ASSERT(with < 0.1 * without);
+}
+
+/* A cheap level that is biased and stretched: most evaluations are made there, the best point is
+ * one of the dear level. */
+static void two_levels(void)
+{
+    bayesopt_options options;
+    bayesopt_options_init(&options);
+    options.n_levels = 2;
+    options.level_cost_ratio = 0.1;
+    options.initial_n = 20;
+    options.max_evaluations = 60;
+    bayesopt *bo = make(3, &options);
+    CU_ASSERT_EQUAL(bayesopt_initial_count(bo), 25);
+    double x[3], f;
+    uint64_t id;
+    int level;
+    size_t dear = 0, cheap = 0;
+    while (bayesopt_ask_levels(bo, 1, x, &id, &level) == BAYESOPT_OK) {
+        f = bowl(3, x);
+        CU_ASSERT(level == (id <= 20 ? 0 : id <= 25 ? 1 : level));
+        if (level == 0)
+            f = -5 + 0.7 * f + 0.3 * sin(2 * x[0]);
+        *(level ? &dear : &cheap) += 1;
+        CU_ASSERT_EQUAL(bayesopt_tell(bo, id, f, NULL), BAYESOPT_OK);
+    }
+    CU_ASSERT(dear > 10 && cheap > 20);
+    CU_ASSERT_EQUAL(bayesopt_best(bo, x, &f, &id), BAYESOPT_OK);
+    CHECK_CLOSE(f, bowl(3, x), 0);
+    CU_ASSERT(f < 1e-3);
+    double mean, sd;
+    CU_ASSERT_EQUAL(bayesopt_predict(bo, 1, x, &mean, &sd), BAYESOPT_OK);
+    CHECK_CLOSE(mean, f, 1e-3);
+    bayesopt_free(bo);
+}
+
+static void small_expected_improvement(void)
+{
+    bayesopt_options options;
+    bayesopt_options_init(&options);
+    options.initial_n = 15;
+    options.max_evaluations = 200;
+    options.stop_expected_improvement = 1e-3;
+    bayesopt *bo = make(2, &options);
+    double x[2], f;
+    uint64_t id;
+    bayesopt_status status;
+    while ((status = bayesopt_ask(bo, 1, x, &id)) == BAYESOPT_OK)
+        CU_ASSERT_EQUAL(bayesopt_tell(bo, id, bowl(2, x), NULL), BAYESOPT_OK);
+    CU_ASSERT_EQUAL(status, BAYESOPT_STOP_EXPECTED_IMPROVEMENT);
+    CU_ASSERT(bayesopt_count(bo) < 100);
+    CU_ASSERT_EQUAL(bayesopt_best(bo, x, &f, NULL), BAYESOPT_OK);
+    CU_ASSERT(f < 1e-3);
+    bayesopt_free(bo);
+}
+
+/* Noise of a tenth of the spread: the model's minimum is near the true one. */
+static void noisy_objective(void)
+{
+    bayesopt_options options;
+    bayesopt_options_init(&options);
+    options.initial_n = 20;
+    options.max_evaluations = 60;
+    options.noise = BAYESOPT_NOISE_LEARNED;
+    bayesopt *bo = make(2, &options);
+    double x[2], mean, sd;
+    const double centre[2] = {0.3, 0.3};
+    uint64_t id, state = 3;
+    while (bayesopt_ask(bo, 1, x, &id) == BAYESOPT_OK) {
+        state = state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+        double noise = 0.4 * ((double)(state >> 11) * 0x1p-53 - 0.5);
+        CU_ASSERT_EQUAL(bayesopt_tell(bo, id, bowl(2, x) + noise, NULL), BAYESOPT_OK);
+    }
+    CU_ASSERT_EQUAL(bayesopt_predict(bo, 1, centre, &mean, &sd), BAYESOPT_OK);
+    CHECK_CLOSE(mean, 0, 0.15);
+    bayesopt_model_info info;
+    CU_ASSERT_EQUAL(bayesopt_model(bo, &info, NULL), BAYESOPT_OK);
+    CU_ASSERT(info.noise_variance > 1e-5);
+    bayesopt_free(bo);
+}
+
 static const struct check_case cases[] = {
+    {"gradients help", gradients_help},
+    {"two levels", two_levels},
+    {"small expected improvement", small_expected_improvement},
+    {"noisy objective", noisy_objective},
     {"finds a minimum", finds_a_minimum},
     {"is reproducible", is_reproducible},
     {"batches are distinct", batches_are_distinct},
