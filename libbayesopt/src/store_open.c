@@ -350,13 +350,35 @@ static bayesopt_status create_from_fields(const struct field *f, double budget,
     return status;
 }
 
+static bool is_array(size_t field)
+{
+    return field <= BOX_UPPER || (field >= INITIAL_X && field <= LINEAR_B);
+}
+
+/* Arrays must fit each other, everything else has the length it has in any problem. */
+static bayesopt_status check_lengths(const struct store *store, const struct field *f,
+                                     const size_t *expected)
+{
+    size_t d = f[BOX_LOWER].n, m = f[CONSTRAINT_LOWER].n, initial = f[INITIAL_X].n;
+    for (size_t i = 0; i < FIELDS; i++)
+        if (!f[i].values || (!is_array(i) && f[i].n != expected[i]))
+            return bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: entry '%s' is damaged", store->path,
+                                 f[i].name);
+    if (!d || f[BOX_UPPER].n != d || f[CONSTRAINT_UPPER].n != m ||
+        f[LINEAR_A].n != f[LINEAR_B].n * d ||
+        (initial && (double)initial != first(&f[INITIAL_N]) * (double)d))
+        return bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: its entries do not agree in length",
+                             store->path);
+    return BAYESOPT_OK;
+}
+
 static bayesopt_status read_fields(struct store *store, struct field *fields, double *budget)
 {
     /* Names and lengths come from a small problem of the library's own. */
     const double lower = 0, upper = 1;
     bayesopt *sample;
     double *values;
-    size_t n;
+    size_t n, expected[FIELDS];
     bayesopt_status status = bayesopt_create(1, &lower, &upper, NULL, &sample);
     if (status)
         return status;
@@ -364,24 +386,13 @@ static bayesopt_status read_fields(struct store *store, struct field *fields, do
     bayesopt_free(sample);
     status = ok ? check_format(store) : bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
     for (size_t i = 0; i < FIELDS && !status; i++) {
-        size_t expected = fields[i].n;
+        expected[i] = fields[i].n;
         free(fields[i].values);
         fields[i].values = NULL;
         status = store_get_meta(store, fields[i].name, &fields[i].values, &fields[i].n);
-        bool scalar = i == SEED || i == STOPS || expected == 1;
-        if (!status &&
-            (!fields[i].values || (scalar && i > BOX_UPPER && i != INITIAL_X && i != LINEAR_A &&
-                                   i != LINEAR_B && fields[i].n != expected)))
-            status = bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: entry '%s' is damaged", store->path,
-                                   fields[i].name);
     }
-    size_t d = fields[BOX_LOWER].n, m = fields[CONSTRAINT_LOWER].n;
-    if (!status && (fields[BOX_UPPER].n != d || fields[CONSTRAINT_UPPER].n != m ||
-                    fields[LINEAR_A].n != fields[LINEAR_B].n * d ||
-                    (fields[INITIAL_X].n &&
-                     (double)fields[INITIAL_X].n != first(&fields[INITIAL_N]) * (double)d)))
-        status = bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: its entries do not agree in length",
-                               store->path);
+    if (!status)
+        status = check_lengths(store, fields, expected);
     if (status)
         return status;
     status = store_get_meta(store, "budget", &values, &n);
