@@ -78,7 +78,7 @@ static void test_rows_match_single_displacements(void)
 {
     double xyz[3 * POINTS];
     fixture_grid(xyz);
-    galv_sine functions[6];
+    galv_sine functions[FUNCTIONS]; /* the first six are used */
     fixture_functions(functions);
     double lower[6], upper[6];
     for (int i = 0; i < 6; i++) {
