@@ -1,5 +1,6 @@
 /* Exponential, sine and cosine that vectorise: no branches, no integer conversion, no library call.
- * Compiled once per instruction set where the loader can choose (WAVE_MULTIVERSION). */
+ * Compiled once per instruction set where the loader can choose (WAVE_MULTIVERSION); not by clang
+ * 14, which loses multiversioned functions that another file calls. */
 #ifndef WAVE_MATH_H
 #define WAVE_MATH_H
 
@@ -7,7 +8,8 @@
 #include <stdint.h>
 #include <string.h>
 
-#if defined(__x86_64__) && defined(__linux__) && !defined(ISOHULL_NO_MULTIVERSION)
+#if defined(__x86_64__) && defined(__linux__) && !defined(__clang__) &&                            \
+    !defined(ISOHULL_NO_MULTIVERSION)
 #define WAVE_MULTIVERSION                                                                          \
     __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #else
