@@ -1,0 +1,156 @@
+/* Damaged files: readers must answer with a status and a sentence, whatever the bytes. Valid files
+ * are cut, overwritten, repeated and spliced by a fixed random stream; the sanitizer build watches
+ * the memory. More rounds: FUZZ_ROUNDS=100000 fuzz_files. */
+#include "check.h"
+
+#include <nurbs/nurbs.h>
+#include <stdint.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { LARGEST = 1 << 16, DEFAULT_ROUNDS = 400 };
+
+static uint64_t next(uint64_t *state)
+{
+    uint64_t z = (*state += 0x9E3779B97F4A7C15u);
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+    return z ^ (z >> 31);
+}
+
+static size_t below(uint64_t *state, size_t n)
+{
+    return n ? (size_t)(next(state) % n) : 0;
+}
+
+static size_t load(const char *path, char *bytes)
+{
+    FILE *stream = fopen(path, "rb");
+    CU_ASSERT_PTR_NOT_NULL_FATAL(stream);
+    size_t n = fread(bytes, 1, LARGEST, stream);
+    fclose(stream);
+    CU_ASSERT_TRUE_FATAL(n > 0);
+    return n;
+}
+
+/* One to four changes of the kinds that transfers, editors and wrong programs make. */
+static size_t damage(uint64_t *state, size_t n, char *bytes)
+{
+    static const char *const tokens[] = {"nan", "1e999", "-", "99999999999", ",,", "\n",
+                                         "0",   "]",     ";"};
+    for (size_t k = 1 + below(state, 4); k > 0 && n > 1; k--) {
+        size_t at = below(state, n), length = 1 + below(state, 40);
+        if (length > n - at)
+            length = n - at;
+        const char *token = tokens[below(state, sizeof tokens / sizeof *tokens)];
+        switch (below(state, 5)) {
+        case 0: /* truncated */
+            n = at + 1;
+            break;
+        case 1: /* another byte */
+            bytes[at] = (char)below(state, 256);
+            break;
+        case 2: /* another token */
+            for (size_t i = 0; token[i] && at + i < n; i++)
+                bytes[at + i] = token[i];
+            break;
+        case 3: /* a piece lost */
+            memmove(bytes + at, bytes + at + length, n - at - length);
+            n -= length;
+            break;
+        default: /* a piece from elsewhere */
+            memmove(bytes + at, bytes + below(state, n - length + 1), length);
+        }
+    }
+    return n;
+}
+
+static void check_reader(const char *path, int grid)
+{
+    nurbs_patches *patches = NULL;
+    nurbs_grid *points = NULL;
+    char report[512];
+    nurbs_status status = NURBS_OK;
+    if (grid)
+        status = nurbs_grid_read(path, &points);
+    else if (strstr(path, ".igs"))
+        status = nurbs_patches_read_iges(path, &patches, report, sizeof report);
+    else
+        status = nurbs_patches_read_json(path, &patches);
+    if (status == NURBS_OK)
+        CU_ASSERT_TRUE(grid ? points != NULL : patches != NULL);
+    if (status != NURBS_OK) {
+        CU_ASSERT_PTR_NULL(points);
+        CU_ASSERT_PTR_NULL(patches);
+        CU_ASSERT_TRUE(strlen(nurbs_last_error()) > 10);
+    }
+    nurbs_grid_free(points);
+    nurbs_patches_free(patches);
+}
+
+static void fuzz(const char *source, const char *extension, int grid)
+{
+    static char original[LARGEST], bytes[LARGEST];
+    const char *folder = getenv("TMPDIR"), *wanted = getenv("FUZZ_ROUNDS");
+    size_t n = load(source, original), rounds = wanted ? strtoul(wanted, NULL, 10) : DEFAULT_ROUNDS;
+    char path[512];
+    snprintf(path, sizeof path, "%s/fuzz_files_%ld%s", folder ? folder : "/tmp", (long)getpid(),
+             extension);
+    uint64_t state = 20240901;
+    for (size_t r = 0; r < rounds; r++) {
+        memcpy(bytes, original, n);
+        size_t m = damage(&state, n, bytes);
+        FILE *stream = fopen(path, "wb");
+        CU_ASSERT_PTR_NOT_NULL_FATAL(stream);
+        CU_ASSERT_EQUAL(fwrite(bytes, 1, m, stream), m);
+        fclose(stream);
+        check_reader(path, grid);
+    }
+    unlink(path);
+}
+
+static void test_json(void)
+{
+    fuzz(EXAMPLES_DIR "/hulls/spheroid.json", ".json", 0);
+}
+
+static void test_iges(void)
+{
+    const char *folder = getenv("TMPDIR");
+    char path[512];
+    nurbs_patches *patches = NULL;
+    CU_ASSERT_EQUAL_FATAL(nurbs_patches_read(EXAMPLES_DIR "/hulls/spheroid.json", &patches),
+                          NURBS_OK);
+    snprintf(path, sizeof path, "%s/fuzz_source_%ld.igs", folder ? folder : "/tmp", (long)getpid());
+    CU_ASSERT_EQUAL_FATAL(nurbs_patches_write_iges(patches, path), NURBS_OK);
+    nurbs_patches_free(patches);
+    fuzz(path, ".igs", 0);
+    unlink(path);
+}
+
+static void test_grid(void)
+{
+    const char *folder = getenv("TMPDIR");
+    char path[512];
+    nurbs_grid *grid = NULL;
+    double points[3 * 4 * 5];
+    for (int k = 0; k < 20; k++) {
+        points[3 * k] = k / 5;
+        points[3 * k + 1] = 0.1 * (k % 5);
+        points[3 * k + 2] = -0.2 * (k % 5);
+    }
+    CU_ASSERT_EQUAL_FATAL(nurbs_grid_create(4, 5, points, &grid), NURBS_OK);
+    snprintf(path, sizeof path, "%s/fuzz_source_%ld.csv", folder ? folder : "/tmp", (long)getpid());
+    CU_ASSERT_EQUAL_FATAL(nurbs_grid_write(grid, path), NURBS_OK);
+    nurbs_grid_free(grid);
+    fuzz(path, ".csv", 1);
+    unlink(path);
+}
+
+static const struct check_case cases[] = {
+    {"damaged NURBS files", test_json},
+    {"damaged IGES files", test_iges},
+    {"damaged grids", test_grid},
+};
+
+CHECK_MAIN("damaged files", cases)
