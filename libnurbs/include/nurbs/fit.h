@@ -73,8 +73,8 @@ NURBS_API nurbs_status nurbs_surface_fit(const int degree[2], const size_t size[
                                          nurbs_surface **surface);
 
 /** Least-squares surface near n scattered points at parameters uv[n] (pairs inside the domain):
- * minimises the mean of |S(uv_k) - p_k|^2 plus smoothing times the integral of |Suu|^2 + 2 |Suv|^2 +
- * |Svv|^2 over the parameters. smoothing in units of the parameters (1e-8 is a light touch on the
+ * minimises the mean of |S(uv_k) - p_k|^2 plus smoothing times the integral of |Suu|^2 + 2 |Suv|^2
+ * + |Svv|^2 over the parameters. smoothing in units of the parameters (1e-8 is a light touch on the
  * unit square); 0 only if the points determine every control point, else NURBS_ERROR_NUMERIC.
  * Sparse normal equations, solved by Cholesky factors (Davis, Direct Methods for Sparse Linear
  * Systems, 2006). */
@@ -88,9 +88,9 @@ NURBS_API nurbs_status nurbs_surface_fit_points(const int degree[2], const size_
 NURBS_API nurbs_status nurbs_ruled(const nurbs_curve *first, const nurbs_curve *last,
                                    nurbs_surface **surface);
 
-/** Coons patch (1967): bilinearly blended from its four edges, exact. u_first and u_last run along u
- * at v = 0 and v = 1; v_first and v_last along v at u = 0 and u = 1. Polynomial curves whose ends meet
- * within 1e-9 of their extent, else NURBS_ERROR_GEOMETRY naming the corner. */
+/** Coons patch (1967): bilinearly blended from its four edges, exact. u_first and u_last run along
+ * u at v = 0 and v = 1; v_first and v_last along v at u = 0 and u = 1. Polynomial curves whose ends
+ * meet within 1e-9 of their extent, else NURBS_ERROR_GEOMETRY naming the corner. */
 NURBS_API nurbs_status nurbs_coons(const nurbs_curve *u_first, const nurbs_curve *u_last,
                                    const nurbs_curve *v_first, const nurbs_curve *v_last,
                                    nurbs_surface **surface);

@@ -41,9 +41,9 @@ NURBS_API nurbs_status nurbs_surface_area(const nurbs_surface *surface, double *
 
 /** Integrals over one patch with its own orientation, n = Su x Sv. */
 typedef struct nurbs_moments {
-    double area;      /**< m^2 */
-    double volume;    /**< int y n_y dS, m^3: half the displacement of a wetted half hull whose normal
-                           points outwards */
+    double area;   /**< m^2 */
+    double volume; /**< int y n_y dS, m^3: half the displacement of a wetted half hull whose normal
+                        points outwards */
     double moment[3]; /**< int (x, y/2, z) y n_y dS, m^4: the moments of that volume */
 } nurbs_moments;
 

@@ -18,19 +18,19 @@ extern "C" {
 NURBS_API nurbs_status nurbs_patches_read_json(const char *path, nurbs_patches **patches);
 NURBS_API nurbs_status nurbs_patches_write_json(const nurbs_patches *patches, const char *path);
 
-/** IGES 5.3: all entities 128 are read as patches, with their transformations 124, lengths converted
- * to metres. Unclamped knots are clamped, a stated range inside the knots is cut out, equal weights
- * are dropped: all exact. Faces (144/142, 143/141, 510/508) are inspected: where a loop cuts a
- * surface the whole surface is kept and the report says so.
+/** IGES 5.3: all entities 128 are read as patches, with their transformations 124, lengths
+ * converted to metres. Unclamped knots are clamped, a stated range inside the knots is cut out,
+ * equal weights are dropped: all exact. Faces (144/142, 143/141, 510/508) are inspected: where a
+ * loop cuts a surface the whole surface is kept and the report says so.
  * @param report  NULL: not wanted; filled with counts of all entities and what was changed
  * The writer writes entities 128 in metres with as many digits as restore every bit. */
 NURBS_API nurbs_status nurbs_patches_read_iges(const char *path, nurbs_patches **patches,
                                                char *report, size_t report_size);
 NURBS_API nurbs_status nurbs_patches_write_iges(const nurbs_patches *patches, const char *path);
 
-/** Curves of an IGES file in metres: entities 126 (B-spline), 110 (line) and 100 (circular arc, exact
- * as a rational quadratic), and the parts of composite curves 102 in their order. Curves that only
- * serve another entity (physically dependent) are left out.
+/** Curves of an IGES file in metres: entities 126 (B-spline), 110 (line) and 100 (circular arc,
+ * exact as a rational quadratic), and the parts of composite curves 102 in their order. Curves that
+ * only serve another entity (physically dependent) are left out.
  * @param n       fills the number of curves; 0 is no error
  * @param curves  creates an array of n curves: nurbs_curves_free() */
 NURBS_API nurbs_status nurbs_curves_read_iges(const char *path, size_t *n, nurbs_curve ***curves);

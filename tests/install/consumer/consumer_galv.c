@@ -1,4 +1,5 @@
-/* Two sine functions on a row of points, through the installed libgalv: two modes carry everything. */
+/* Two sine functions on a row of points, through the installed libgalv: two modes carry everything.
+ */
 #include <galv/galv.h>
 #include <math.h>
 #include <stdio.h>
