@@ -74,8 +74,19 @@ typedef enum iges_trim {
     IGES_TRIMMED, /* a loop cuts the surface */
     IGES_UNKNOWN  /* no curves in parameter space */
 } iges_trim;
+
+typedef struct iges_face {
+    size_t surface; /* index of the base surface */
+    iges_trim trim;
+    size_t loops;
+    size_t count; /* curves of all loops in parameter space, in their order */
+    size_t room;
+    nurbs_curve **curve;
+} iges_face;
+
 int iges_is_face(int type);
-/* Index of the base surface of a face, and what its loops do to it. */
-nurbs_status iges_face(iges_file *file, size_t entity, size_t *surface, iges_trim *trim);
+/* Base surface and curves of a face; nothing to free after a failure. */
+nurbs_status iges_face_read(iges_file *file, size_t entity, iges_face *face);
+void iges_face_free(iges_face *face);
 
 #endif

@@ -1,5 +1,6 @@
 #include "error.h"
 #include "iges.h"
+#include <nurbs/io.h>
 
 #include <math.h>
 #include <stdlib.h>
@@ -11,46 +12,31 @@ int iges_is_face(int type)
     return type == 144 || type == 143 || type == 510;
 }
 
-/* What the curves of a face in parameter space do; the domain is that of the base surface. */
-typedef struct loop_check {
-    double low[2], high[2];
-    size_t curves;
-    int inside; /* some curve leaves the boundary of the domain */
-} loop_check;
-
-static nurbs_status check_simple(iges_file *file, size_t curve, loop_check *loops)
+static nurbs_status append_curve(iges_file *file, size_t curve, iges_face *face)
 {
-    nurbs_curve *read;
-    nurbs_status status = iges_curve(file, curve, 1, &read);
-    if (status != NURBS_OK)
-        return status;
-    const double *knots = nurbs_curve_knots(read);
-    double first = knots[0], last = knots[nurbs_curve_size(read)];
-    for (int k = 0; k < SAMPLES && status == NURBS_OK; k++) {
-        double t = k == SAMPLES - 1 ? last : first + (last - first) * k / (SAMPLES - 1), p[3];
-        int on_edge = 0;
-        status = nurbs_curve_eval(read, 0, 1, &t, p);
-        for (int d = 0; d < 2; d++) {
-            double slack = 1e-5 * (loops->high[d] - loops->low[d]);
-            on_edge |= fabs(p[d] - loops->low[d]) < slack || fabs(p[d] - loops->high[d]) < slack;
-        }
-        loops->inside |= !on_edge;
+    if (face->count == face->room) {
+        size_t room = face->room ? 2 * face->room : 16;
+        nurbs_curve **larger = realloc(face->curve, room * sizeof *larger);
+        if (!larger)
+            return nurbs_fail(NURBS_ERROR_MEMORY, "%s: no memory for %zu curves", file->path, room);
+        face->curve = larger;
+        face->room = room;
     }
-    loops->curves++;
-    nurbs_curve_free(read);
+    nurbs_status status = iges_curve(file, curve, 1, &face->curve[face->count]);
+    face->count += status == NURBS_OK;
     return status;
 }
 
 /* A curve in parameter space: 126, 110, 100, or a chain 102 of them; others are passed over. */
-static nurbs_status check_curve(iges_file *file, size_t curve, int depth, loop_check *loops)
+static nurbs_status read_curve(iges_file *file, size_t curve, int depth, iges_face *face)
 {
     int type = file->entity[curve].type;
     if (type == 126 || type == 110 || type == 100)
-        return check_simple(file, curve, loops);
+        return append_curve(file, curve, face);
     if (type != 102)
         return NURBS_OK;
     /* A composite inside itself would never end. */
-    if (depth == MAX_DEPTH || loops->curves > MAX_CURVES)
+    if (depth == MAX_DEPTH || face->count > MAX_CURVES)
         return nurbs_fail(NURBS_ERROR_FORMAT,
                           "%s: composite curve at D%zu: composites inside each other without end",
                           file->path, iges_number(curve));
@@ -60,13 +46,13 @@ static nurbs_status check_curve(iges_file *file, size_t curve, int depth, loop_c
         size_t part;
         status = iges_pointer(file, curve, (size_t)k + 1, &part);
         if (status == NURBS_OK)
-            status = check_curve(file, part, depth + 1, loops);
+            status = read_curve(file, part, depth + 1, face);
     }
     return status;
 }
 
 /* Curve on surface 142: creation, surface, curve in parameter space, curve in space, preference. */
-static nurbs_status check_142(iges_file *file, size_t entity, loop_check *loops)
+static nurbs_status read_142(iges_file *file, size_t entity, iges_face *face)
 {
     long given;
     size_t curve;
@@ -74,11 +60,11 @@ static nurbs_status check_142(iges_file *file, size_t entity, loop_check *loops)
     if (status != NURBS_OK || given == 0)
         return status;
     status = iges_pointer(file, entity, 2, &curve);
-    return status == NURBS_OK ? check_curve(file, curve, 0, loops) : status;
+    return status == NURBS_OK ? read_curve(file, curve, 0, face) : status;
 }
 
 /* Boundary 141: type, preference, surface, N, then (curve, sense, K, K parameter curves). */
-static nurbs_status check_141(iges_file *file, size_t entity, loop_check *loops)
+static nurbs_status read_141(iges_file *file, size_t entity, iges_face *face)
 {
     long n;
     size_t at = 4;
@@ -91,14 +77,14 @@ static nurbs_status check_141(iges_file *file, size_t entity, loop_check *loops)
             size_t curve;
             status = iges_pointer(file, entity, at++, &curve);
             if (status == NURBS_OK)
-                status = check_curve(file, curve, 0, loops);
+                status = read_curve(file, curve, 0, face);
         }
     }
     return status;
 }
 
 /* Loop 508: N, then (type, edge, index, orientation, K, K times (isoparametric, curve)). */
-static nurbs_status check_508(iges_file *file, size_t entity, loop_check *loops)
+static nurbs_status read_508(iges_file *file, size_t entity, iges_face *face)
 {
     long n;
     size_t at = 1;
@@ -111,21 +97,21 @@ static nurbs_status check_508(iges_file *file, size_t entity, loop_check *loops)
             size_t curve;
             status = iges_pointer(file, entity, at + 1, &curve);
             if (status == NURBS_OK)
-                status = check_curve(file, curve, 0, loops);
+                status = read_curve(file, curve, 0, face);
         }
     }
     return status;
 }
 
-static nurbs_status check_loop(iges_file *file, size_t entity, loop_check *loops)
+static nurbs_status read_loop(iges_file *file, size_t entity, iges_face *face)
 {
     switch (file->entity[entity].type) {
     case 142:
-        return check_142(file, entity, loops);
+        return read_142(file, entity, face);
     case 141:
-        return check_141(file, entity, loops);
+        return read_141(file, entity, face);
     case 508:
-        return check_508(file, entity, loops);
+        return read_508(file, entity, face);
     default:
         return NURBS_OK;
     }
@@ -157,39 +143,72 @@ static nurbs_status face_loops(const iges_file *file, size_t entity, size_t *fir
     return status;
 }
 
-nurbs_status iges_face(iges_file *file, size_t entity, size_t *surface, iges_trim *trim)
+/* Whether some curve leaves the boundary of the surface's domain. */
+static nurbs_status leaves_boundary(const iges_face *face, const nurbs_surface *base, int *inside)
 {
-    size_t first = 0, count = 0;
+    nurbs_status status = NURBS_OK;
+    *inside = 0;
+    for (size_t i = 0; i < face->count * SAMPLES && status == NURBS_OK; i++) {
+        const nurbs_curve *curve = face->curve[i / SAMPLES];
+        const double *knots = nurbs_curve_knots(curve);
+        size_t k = i % SAMPLES;
+        double first = knots[0], last = knots[nurbs_curve_size(curve)], p[3];
+        double t = k == SAMPLES - 1 ? last : first + (last - first) * (double)k / (SAMPLES - 1);
+        int on_edge = 0;
+        status = nurbs_curve_eval(curve, 0, 1, &t, p);
+        for (int d = 0; d < 2; d++) {
+            const double *range = nurbs_surface_knots(base, d);
+            double low = range[0], high = range[nurbs_surface_size(base, d)],
+                   slack = 1e-5 * (high - low);
+            on_edge |= fabs(p[d] - low) < slack || fabs(p[d] - high) < slack;
+        }
+        *inside |= !on_edge;
+    }
+    return status;
+}
+
+static nurbs_status read_face(iges_file *file, size_t entity, iges_face *face)
+{
+    size_t first = 0;
     nurbs_surface *base = NULL;
-    *trim = IGES_UNKNOWN;
     nurbs_status status =
-        iges_pointer(file, entity, file->entity[entity].type == 143 ? 1 : 0, surface);
-    if (status == NURBS_OK && file->entity[*surface].type != 128)
+        iges_pointer(file, entity, file->entity[entity].type == 143 ? 1 : 0, &face->surface);
+    if (status == NURBS_OK && file->entity[face->surface].type != 128)
         return NURBS_OK;
     if (status == NURBS_OK)
-        status = face_loops(file, entity, &first, &count);
-    if (status == NURBS_OK && count == 0)
-        *trim = IGES_WHOLE;
-    if (status != NURBS_OK || count == 0)
-        return status;
-    size_t used = file->report_used;
-    status = iges_surface(file, *surface, &base);
-    file->report_used = used; /* what there is to say about the surface is said when it is kept */
-    if (status != NURBS_OK)
-        return status;
-    loop_check loops = {0};
-    for (int d = 0; d < 2; d++) {
-        loops.low[d] = nurbs_surface_knots(base, d)[0];
-        loops.high[d] = nurbs_surface_knots(base, d)[nurbs_surface_size(base, d)];
-    }
-    nurbs_surface_free(base);
-    for (size_t k = 0; k < count && status == NURBS_OK; k++) {
+        status = face_loops(file, entity, &first, &face->loops);
+    if (status == NURBS_OK && face->loops == 0)
+        face->trim = IGES_WHOLE;
+    for (size_t k = 0; k < face->loops && status == NURBS_OK; k++) {
         size_t loop;
         status = iges_pointer(file, entity, first + k, &loop);
         if (status == NURBS_OK)
-            status = check_loop(file, loop, &loops);
+            status = read_loop(file, loop, face);
     }
-    if (status == NURBS_OK && loops.curves > 0)
-        *trim = loops.inside ? IGES_TRIMMED : IGES_WHOLE;
+    if (status != NURBS_OK || face->count == 0)
+        return status;
+    size_t used = file->report_used;
+    status = iges_surface(file, face->surface, &base);
+    file->report_used = used; /* what there is to say about the surface is said when it is kept */
+    int inside = 0;
+    if (status == NURBS_OK)
+        status = leaves_boundary(face, base, &inside);
+    face->trim = inside ? IGES_TRIMMED : IGES_WHOLE;
+    nurbs_surface_free(base);
     return status;
+}
+
+nurbs_status iges_face_read(iges_file *file, size_t entity, iges_face *face)
+{
+    *face = (iges_face){.trim = IGES_UNKNOWN};
+    nurbs_status status = read_face(file, entity, face);
+    if (status != NURBS_OK)
+        iges_face_free(face);
+    return status;
+}
+
+void iges_face_free(iges_face *face)
+{
+    nurbs_curves_free(face->count, face->curve);
+    *face = (iges_face){0};
 }

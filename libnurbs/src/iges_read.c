@@ -2,7 +2,9 @@
 #include "iges.h"
 #include "textfile.h"
 #include <nurbs/io.h>
+#include <nurbs/trim.h>
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -64,81 +66,166 @@ static void report_counts(iges_file *file)
     iges_report(file, "; ");
 }
 
-/* Faces: which surfaces they cut. cut[surface] is set for trimmed ones. */
-static nurbs_status inspect_faces(iges_file *file, unsigned char *cut)
+/* What the faces of a file make of each surface. */
+typedef struct face_work {
+    double tolerance;       /* of untrimming, metres; 0: not wanted */
+    unsigned char *trimmed; /* [entities] by some face */
+    unsigned char *whole;   /* [entities] some face needs the whole surface */
+    nurbs_patches *patches; /* untrimmed ones; their base surface's index and face in `base` */
+    size_t *base;
+} face_work;
+
+/* The surface of a trimmed face as a patch of its own; a loop for which that cannot be done leaves
+ * the surface whole. */
+static nurbs_status untrim_face(iges_file *file, size_t entity, const iges_face *face,
+                                face_work *work)
 {
-    nurbs_status status = NURBS_OK;
-    for (size_t k = 0; k < file->count && status == NURBS_OK; k++) {
-        size_t surface = 0;
-        iges_trim trim;
-        if (!iges_is_face(file->entity[k].type))
-            continue;
-        status = iges_face(file, k, &surface, &trim);
-        if (status != NURBS_OK)
-            break;
-        if (file->entity[surface].type != 128)
-            iges_report(file, "face D%zu lies on %d %s D%zu, which is not read; ", iges_number(k),
-                        file->entity[surface].type, type_name(file->entity[surface].type),
-                        iges_number(surface));
-        else if (trim == IGES_TRIMMED) {
-            cut[surface] = 1;
-            iges_report(file, "face D%zu trims surface D%zu: the whole surface is kept; ",
-                        iges_number(k), iges_number(surface));
-        } else if (trim == IGES_UNKNOWN) {
-            iges_report(file,
-                        "face D%zu has no curves in parameter space: the whole surface D%zu is "
-                        "kept; ",
-                        iges_number(k), iges_number(surface));
-        }
+    nurbs_surface *surface, *patch = NULL;
+    double deviation = 0;
+    size_t used = file->report_used, number = iges_number(entity);
+    nurbs_status status = iges_surface(file, face->surface, &surface);
+    file->report_used = used;
+    if (status != NURBS_OK)
+        return status;
+    if (face->loops > 1)
+        status = nurbs_fail(NURBS_ERROR_GEOMETRY, "it has %zu loops", face->loops);
+    else
+        status = nurbs_surface_untrim(surface, face->count, (const nurbs_curve *const *)face->curve,
+                                      work->tolerance, &patch, &deviation);
+    nurbs_surface_free(surface);
+    if (status == NURBS_ERROR_GEOMETRY || status == NURBS_ERROR_NUMERIC) {
+        iges_report(file, "face D%zu trims surface D%zu: the whole surface is kept: %s; ", number,
+                    iges_number(face->surface), nurbs_last_error());
+        work->whole[face->surface] = 1;
+        return NURBS_OK;
     }
+    if (status == NURBS_OK) {
+        iges_report(file,
+                    "face D%zu trims surface D%zu: resampled as %zu x %zu control points, "
+                    "deviation %.2g m; ",
+                    number, iges_number(face->surface), nurbs_surface_size(patch, 0),
+                    nurbs_surface_size(patch, 1), deviation);
+        work->base[nurbs_patches_count(work->patches)] = face->surface;
+        status = nurbs_patches_add(work->patches, patch);
+    }
+    nurbs_surface_free(patch);
     return status;
 }
 
-static nurbs_status read_surfaces(iges_file *file, nurbs_patches *patches)
+static nurbs_status inspect_face(iges_file *file, size_t entity, face_work *work)
 {
-    size_t read = 0, trimmed = 0;
-    unsigned char *cut = calloc(file->count + 1, 1);
-    if (!cut)
-        return nurbs_fail(NURBS_ERROR_MEMORY, "%s: no memory for %zu entities", file->path,
-                          file->count);
-    nurbs_status status = inspect_faces(file, cut);
-    for (size_t k = 0; k < file->count && status == NURBS_OK; k++) {
-        nurbs_surface *surface;
-        if (file->entity[k].type != 128)
-            continue;
-        status = iges_surface(file, k, &surface);
+    iges_face face;
+    nurbs_status status = iges_face_read(file, entity, &face);
+    if (status != NURBS_OK)
+        return status;
+    size_t number = iges_number(entity), surface = face.surface;
+    if (file->entity[surface].type != 128)
+        iges_report(file, "face D%zu lies on %d %s D%zu, which is not read; ", number,
+                    file->entity[surface].type, type_name(file->entity[surface].type),
+                    iges_number(surface));
+    else if (face.trim == IGES_UNKNOWN)
+        iges_report(file,
+                    "face D%zu has no curves in parameter space: the whole surface D%zu is "
+                    "kept; ",
+                    number, iges_number(surface));
+    work->trimmed[surface] |= face.trim == IGES_TRIMMED;
+    work->whole[surface] |= face.trim != IGES_TRIMMED;
+    if (face.trim == IGES_TRIMMED && work->tolerance > 0) {
+        status = untrim_face(file, entity, &face, work);
+    } else if (face.trim == IGES_TRIMMED) {
+        work->whole[surface] = 1;
+        iges_report(file, "face D%zu trims surface D%zu: the whole surface is kept; ", number,
+                    iges_number(surface));
+    }
+    iges_face_free(&face);
+    return status;
+}
+
+/* Untrimmed patches stand in for a surface only if every face on it gave one: else they would lie
+ * on the whole surface. */
+static nurbs_status keep_surface(iges_file *file, size_t entity, const face_work *work,
+                                 nurbs_patches *patches)
+{
+    nurbs_surface *surface;
+    nurbs_status status = NURBS_OK;
+    if (!work->trimmed[entity] || work->whole[entity]) {
+        status = iges_surface(file, entity, &surface);
         if (status == NURBS_OK)
             status = nurbs_patches_add(patches, surface);
         nurbs_surface_free(surface);
-        read++;
-        trimmed += cut[k];
+        return status;
     }
-    free(cut);
+    for (size_t k = 0; k < nurbs_patches_count(work->patches) && status == NURBS_OK; k++)
+        if (work->base[k] == entity)
+            status = nurbs_patches_add(patches, nurbs_patches_get(work->patches, k));
+    return status;
+}
+
+static nurbs_status read_surfaces(iges_file *file, face_work *work, nurbs_patches *patches)
+{
+    size_t read = 0, trimmed = 0, untrimmed = 0;
+    nurbs_status status = NURBS_OK;
+    for (size_t k = 0; k < file->count && status == NURBS_OK; k++)
+        if (iges_is_face(file->entity[k].type))
+            status = inspect_face(file, k, work);
+    for (size_t k = 0; k < file->count && status == NURBS_OK; k++) {
+        if (file->entity[k].type != 128)
+            continue;
+        status = keep_surface(file, k, work, patches);
+        read++;
+        trimmed += work->trimmed[k];
+        untrimmed += work->trimmed[k] && !work->whole[k];
+    }
     if (status == NURBS_OK && read == 0)
         status = nurbs_fail(NURBS_ERROR_FORMAT,
                             "%s: no B-spline surface (entity 128) among %zu "
                             "entities",
                             file->path, file->count);
     iges_report(file, "%zu surfaces kept, %zu of them trimmed in the file", read, trimmed);
+    if (untrimmed > 0)
+        iges_report(file, ", %zu of these resampled", untrimmed);
     return status;
 }
 
-nurbs_status nurbs_patches_read_iges(const char *path, nurbs_patches **patches, char *report,
-                                     size_t report_size)
+static nurbs_status read_file(iges_file *file, double tolerance, nurbs_patches *patches)
+{
+    face_work work = {.tolerance = tolerance,
+                      .trimmed = calloc(2 * file->count + 1, 1),
+                      .base = calloc(file->count + 1, sizeof(size_t))};
+    nurbs_status status = NURBS_OK;
+    report_counts(file);
+    if (!work.trimmed || !work.base)
+        status = nurbs_fail(NURBS_ERROR_MEMORY, "%s: no memory for %zu entities", file->path,
+                            file->count);
+    work.whole = work.trimmed + file->count;
+    if (status == NURBS_OK)
+        status = nurbs_patches_create(&work.patches);
+    if (status == NURBS_OK)
+        status = read_surfaces(file, &work, patches);
+    nurbs_patches_free(work.patches);
+    free(work.trimmed);
+    free(work.base);
+    return status;
+}
+
+nurbs_status nurbs_patches_read_iges_untrimmed(const char *path, double tolerance,
+                                               nurbs_patches **patches, char *report,
+                                               size_t report_size)
 {
     iges_file file = {.report = report, .report_size = report_size};
     numeric_locale locale;
     *patches = NULL;
     if (report && report_size)
         report[0] = '\0';
+    if (!(isfinite(tolerance) && tolerance >= 0))
+        return nurbs_fail(NURBS_ERROR_ARGUMENT, "%s: tolerance %g, expected a length >= 0", path,
+                          tolerance);
     numeric_locale_set(&locale);
     nurbs_status status = iges_open(path, &file);
     if (status == NURBS_OK)
         status = nurbs_patches_create(patches);
-    if (status == NURBS_OK) {
-        report_counts(&file);
-        status = read_surfaces(&file, *patches);
-    }
+    if (status == NURBS_OK)
+        status = read_file(&file, tolerance, *patches);
     iges_close(&file);
     numeric_locale_restore(&locale);
     if (status != NURBS_OK) {
@@ -146,4 +233,10 @@ nurbs_status nurbs_patches_read_iges(const char *path, nurbs_patches **patches, 
         *patches = NULL;
     }
     return status;
+}
+
+nurbs_status nurbs_patches_read_iges(const char *path, nurbs_patches **patches, char *report,
+                                     size_t report_size)
+{
+    return nurbs_patches_read_iges_untrimmed(path, 0, patches, report, report_size);
 }

@@ -9,12 +9,12 @@ enum { MAX_SIZE = 10000 };
 static nurbs_status reserve(knot_list *list, size_t size)
 {
     size_t needed = size + (size_t)list->degree + 1;
-    if (size > MAX_SIZE)
+    if (size > list->most)
         return nurbs_fail(
             NURBS_ERROR_NUMERIC,
-            "more than %d control points in one direction would be needed to keep the "
+            "more than %zu control points in one direction would be needed to keep the "
             "tolerance",
-            MAX_SIZE);
+            list->most);
     if (needed > list->room) {
         double *larger = realloc(list->knots, 2 * needed * sizeof *larger);
         if (!larger)
@@ -28,7 +28,7 @@ static nurbs_status reserve(knot_list *list, size_t size)
 nurbs_status knot_list_start(knot_list *list, int degree, const double range[2])
 {
     size_t order = (size_t)degree + 1;
-    *list = (knot_list){.degree = degree};
+    *list = (knot_list){.degree = degree, .most = MAX_SIZE};
     nurbs_status status = reserve(list, order);
     if (status != NURBS_OK)
         return status;

@@ -8,6 +8,7 @@ typedef struct knot_list {
     int degree;
     size_t size; /* control points: size + degree + 1 knots */
     size_t room;
+    size_t most; /* control points it may grow to */
     double *knots;
 } knot_list;
 

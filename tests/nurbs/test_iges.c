@@ -178,6 +178,55 @@ static void writing_and_reading_restores_every_bit(void)
     nurbs_surface_free(patch);
 }
 
+/* The surface of all trimmed files is the plain patch S; what lies inside the loops is known. */
+static void untrims_faces_of_four_sides(void)
+{
+    static const struct {
+        const char *path, *mentioned;
+        size_t patches;
+        int curved; /* v = t (1 - 0.4 s (1 - s)) */
+        double u[2], v[2];
+    } files[] = {
+        {DATA("trimmed"), "deviation", 1, 0, {0.1, 0.9}, {0.1, 0.8}},
+        {DATA("trimmed_curved"), "deviation", 1, 1, {0, 1}, {0, 1}},
+        {DATA("trimmed_face"), "deviation", 1, 1, {0, 1}, {0, 1}},
+        {DATA("trimmed_twice"), "1 of these resampled", 2, 0, {0, 0.5}, {0, 1}},
+        {DATA("trimmed_hole"), "the whole surface is kept: it has 2 loops", 1, 0, {0, 1}, {0, 1}},
+        {DATA("trimmed_triangle"), "has 3 corners", 1, 0, {0, 1}, {0, 1}},
+        {DATA("untrimmed_face"), "0 of them trimmed", 1, 0, {0, 1}, {0, 1}},
+        {DATA("plain"), "0 of them trimmed", 1, 0, {0, 1}, {0, 1}},
+    };
+    nurbs_surface *expected = expected_patch();
+    for (size_t f = 0; f < sizeof files / sizeof files[0]; f++) {
+        char report[1000];
+        nurbs_patches *patches = NULL;
+        nurbs_status status =
+            nurbs_patches_read_iges_untrimmed(files[f].path, 1e-6, &patches, report, sizeof report);
+        CU_ASSERT_EQUAL_FATAL(status, NURBS_OK);
+        CU_ASSERT_EQUAL(nurbs_patches_count(patches), files[f].patches);
+        if (!strstr(report, files[f].mentioned)) {
+            fprintf(stderr, "%s: %s\n", files[f].path, report);
+            CU_FAIL("the report does not mention what it must");
+        }
+        for (int k = 0; k <= 60; k++) {
+            double st[2] = {(k % 8) / 7.0, (k % 9) / 8.0}, p[3], q[3];
+            double share = files[f].curved ? st[1] * (1 - 0.4 * st[0] * (1 - st[0])) : st[1];
+            double uv[2] = {files[f].u[0] + (files[f].u[1] - files[f].u[0]) * st[0],
+                            files[f].v[0] + (files[f].v[1] - files[f].v[0]) * share};
+            CU_ASSERT_EQUAL(nurbs_surface_eval(nurbs_patches_get(patches, 0), 0, 1, st, p),
+                            NURBS_OK);
+            CU_ASSERT_EQUAL(nurbs_surface_eval(expected, 0, 1, uv, q), NURBS_OK);
+            for (int c = 0; c < 3; c++)
+                CHECK_CLOSE(p[c], q[c], 1e-6);
+        }
+        nurbs_patches_free(patches);
+    }
+    nurbs_patches *none;
+    CU_ASSERT_EQUAL(nurbs_patches_read_iges_untrimmed(DATA("trimmed"), NAN, &none, NULL, 0),
+                    NURBS_ERROR_ARGUMENT);
+    nurbs_surface_free(expected);
+}
+
 /* Every line of 80 columns, sections numbered from 1. */
 static void written_records_are_well_formed(void)
 {
@@ -356,6 +405,7 @@ static const struct check_case cases[] = {
     {"clamps periodic knots", clamps_periodic_knots},
     {"writing and reading restores every bit", writing_and_reading_restores_every_bit},
     {"written records are well formed", written_records_are_well_formed},
+    {"untrims faces of four sides", untrims_faces_of_four_sides},
     {"reads curves", reads_curves},
     {"refuses damaged files", refuses_damaged_files},
     {"refuses endless composites", refuses_endless_composites},

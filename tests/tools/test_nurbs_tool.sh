@@ -135,6 +135,14 @@ expect 0 "$nurbs" convert wet.igs again.json
 says "128 B-spline surface x 1"
 expect 0 "$nurbs" hydrostatics again.json --json
 close volume 0.5535 3e-3
+trimmed=$source/tests/data/iges_trimmed_curved.igs
+expect 0 "$nurbs" convert "$trimmed" whole.json
+says "the whole surface is kept"
+expect 0 "$nurbs" convert "$trimmed" part.json --untrim 1e-4
+says "resampled as"
+expect 0 "$nurbs" info part.json --json
+close area 15.827639 1e-5
+expect 2 "$nurbs" convert "$trimmed" part.json --untrim 0
 for extension in stl vtu csv IGES; do
     expect 0 "$nurbs" convert wigley.json wigley.$extension
     [ -s wigley.$extension ] || fail "wigley.$extension is empty"

@@ -9,14 +9,21 @@ static bool is_iges(const char *path)
     return dot && (strcasecmp(dot, ".igs") == 0 || strcasecmp(dot, ".iges") == 0);
 }
 
-static int convert(const char *input, const char *output, double scale, double length,
-                   const char *note, bool json)
+struct request {
+    double scale, length, untrim;
+    const char *note;
+    bool json;
+};
+
+static int convert(const char *input, const char *output, const struct request *request)
 {
+    const double scale = request->scale, length = request->length;
+    const char *note = request->note;
     char report[4000] = "";
     nurbs_patches *read = NULL, *written = NULL;
-    nurbs_status status = is_iges(input)
-                              ? nurbs_patches_read_iges(input, &read, report, sizeof report)
-                              : nurbs_patches_read(input, &read);
+    nurbs_status status = is_iges(input) ? nurbs_patches_read_iges_untrimmed(
+                                               input, request->untrim, &read, report, sizeof report)
+                                         : nurbs_patches_read(input, &read);
     if (status != NURBS_OK)
         return library_failure();
     const double matrix[9] = {scale, 0, 0, 0, scale, 0, 0, 0, scale}, shift[3] = {0, 0, 0};
@@ -41,7 +48,7 @@ static int convert(const char *input, const char *output, double scale, double l
     if (status == NURBS_OK)
         status = nurbs_patches_write(written, output);
     int code = status == NURBS_OK ? CLI_OK : library_failure();
-    if (code == CLI_OK && json)
+    if (code == CLI_OK && request->json)
         code =
             print_json(json_pack("{s:s,s:s,s:I,s:s}", "input", input, "output", output, "patches",
                                  (json_int_t)nurbs_patches_count(written), "report", report));
@@ -57,31 +64,32 @@ static int run(int argc, char **argv)
     static const struct option options[] = {{"scale", required_argument, NULL, 's'},
                                             {"lpp", required_argument, NULL, 'l'},
                                             {"note", required_argument, NULL, 'n'},
+                                            {"untrim", required_argument, NULL, 'u'},
                                             COMMON_OPTIONS,
                                             END_OF_OPTIONS};
-    double scale = 1, length = 0;
-    const char *note = NULL;
-    bool json = false;
+    struct request request = {.scale = 1};
     int letter, code = CLI_OK;
     while (code == CLI_OK && (letter = getopt_long(argc, argv, ":", options, NULL)) != -1)
         switch (letter) {
         case 's':
-            if (!cli_parse_double(optarg, &scale) || !(scale > 0))
+            if (!cli_parse_double(optarg, &request.scale) || !(request.scale > 0))
                 code = cli_usage("--scale '%s': expected a number > 0", optarg);
             break;
         case 'l':
-            code = length_option("lpp", optarg, &length);
+            code = length_option("lpp", optarg, &request.length);
             break;
         case 'n':
-            note = optarg;
+            request.note = optarg;
+            break;
+        case 'u':
+            code = length_option("untrim", optarg, &request.untrim);
             break;
         default:
-            code = common_option(letter, argv, &json);
+            code = common_option(letter, argv, &request.json);
         }
     if (code == CLI_OK)
         code = operand_count(argc, argv, 2, "an input and an output file");
-    return code == CLI_OK ? convert(argv[optind], argv[optind + 1], scale, length, note, json)
-                          : code;
+    return code == CLI_OK ? convert(argv[optind], argv[optind + 1], &request) : code;
 }
 
 const subcommand convert_command = {
@@ -89,6 +97,8 @@ const subcommand convert_command = {
     "usage: nurbs convert IN OUT [options]\n"
     "  By extension: reads .json .igs .iges, writes .json .igs .iges .stl .vtu .csv. What an\n"
     "  IGES file held and what was changed is told on standard error.\n"
+    "  --untrim T     faces of an IGES file that are trimmed to four sides become patches of\n"
+    "                 their own, within T metres (surfaces are kept whole)\n"
     "  --scale S      multiply all lengths\n"
     "  --lpp L        reference length kept in a NURBS file\n"
     "  --note TEXT    provenance kept in a NURBS file\n"};

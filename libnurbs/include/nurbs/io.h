@@ -28,6 +28,13 @@ NURBS_API nurbs_status nurbs_patches_read_iges(const char *path, nurbs_patches *
                                                char *report, size_t report_size);
 NURBS_API nurbs_status nurbs_patches_write_iges(const nurbs_patches *patches, const char *path);
 
+/** The same, but every surface whose faces all have one loop of four sides is replaced by patches
+ * that end at these loops: nurbs_surface_untrim() with its tolerance in metres (0: never). The
+ * report tells the deviation of each patch, and why other surfaces are kept whole. */
+NURBS_API nurbs_status nurbs_patches_read_iges_untrimmed(const char *path, double tolerance,
+                                                         nurbs_patches **patches, char *report,
+                                                         size_t report_size);
+
 /** Curves of an IGES file in metres: entities 126 (B-spline), 110 (line) and 100 (circular arc,
  * exact as a rational quadratic), and the parts of composite curves 102 in their order. Curves that
  * only serve another entity (physically dependent) are left out.

@@ -25,5 +25,6 @@
 #include <nurbs/simplify.h>
 #include <nurbs/status.h>
 #include <nurbs/surface.h>
+#include <nurbs/trim.h>
 
 #endif
