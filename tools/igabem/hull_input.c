@@ -192,8 +192,9 @@ static int create_hull(const struct hull_request *request, double lpp, struct hu
     }
     for (size_t p = 0; p < n; p++)
         list[p] = nurbs_patches_get(input->patches, p);
-    int half = lower[1] > -CLEARANCE * (upper[0] - lower[0]);
-    igabem_status status = igabem_hull_create(list, n, half ? IGABEM_SYMMETRIC : 0, &input->hull);
+    input->half = lower[1] > -CLEARANCE * (upper[0] - lower[0]);
+    igabem_status status =
+        igabem_hull_create(list, n, input->half ? IGABEM_SYMMETRIC : 0, &input->hull);
     free(list);
     double length = isnan(request->length) ? lpp : request->length;
     if (!status && length > 0)

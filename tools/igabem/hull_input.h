@@ -21,6 +21,7 @@ struct hull_input {
     nurbs_patches *patches; /* wetted, z = 0 the still water; owned */
     igabem_hull *hull;      /* owned */
     int cut;                /* some patch crossed the water */
+    int half;               /* y >= 0 only, the other side is the mirror image */
     char note[160];         /* what was done to the file */
     double level;           /* z of the still water in the file's axes */
     double simplify_bound;  /* metres, 0 if nothing was simplified */

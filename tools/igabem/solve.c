@@ -120,6 +120,22 @@ static int write_files(const struct solve_run *run, const igabem_solution *solut
     return code;
 }
 
+/* Where the waves come from and what a wave cut says; thirds of the extent of the hull. */
+static igabem_status survey(const struct solve_run *run, const igabem_solution *solution,
+                            struct solve_result *result)
+{
+    const nurbs_hydrostatics *h = &run->info.hydrostatics;
+    const double third = (h->x_fore - h->x_aft) / 3.0;
+    const double limit[2] = {h->x_fore - third, h->x_aft + third};
+    igabem_status status = igabem_wave_shares(solution, 2, limit, result->share);
+    if (status)
+        return status;
+    igabem_formulation formulation = result->options.formulation;
+    if (formulation == IGABEM_HOGNER || formulation == IGABEM_MICHELL || !run->input->half)
+        return IGABEM_OK;
+    return igabem_wave_cut(solution, NAN, &result->cw_cut);
+}
+
 static int solve_level(struct solve_run *run, size_t level, igabem_options *options,
                        igabem_solution **solutions, struct cli_progress *progress)
 {
@@ -134,6 +150,10 @@ static int solve_level(struct solve_run *run, size_t level, igabem_options *opti
         status = igabem_forces_compute(solutions[c], &result->forces);
         result->options = *igabem_solution_options(solutions[c]);
         result->refine = result->options.refine;
+        result->cw_cut = result->share[0] = result->share[1] = result->share[2] = NAN;
+        if (!status && run->request->survey && level + 1 == run->levels &&
+            result->options.kernel == IGABEM_KERNEL_KELVIN)
+            status = survey(run, solutions[c], result);
     }
     int code = CLI_OK;
     if (status)

@@ -15,6 +15,7 @@ struct solve_request {
     double *fr;
     size_t n_fr;
     bool all;         /* every formulation */
+    bool survey;      /* shares of bow, middle and stern, and a wave cut */
     int ladder;       /* levels, 1: none */
     double x_s;       /* metres, NAN: options.stern_length */
     double viscosity; /* kinematic, m^2/s */
@@ -34,6 +35,8 @@ struct solve_result {
     igabem_options options; /* as used */
     igabem_forces forces;
     int refine;
+    double cw_cut;   /* by a longitudinal wave cut; NAN: not asked for, or none */
+    double share[3]; /* of the fore, middle and aft third in C_w; NAN likewise */
 };
 
 /* One ladder: results of one Froude number and formulation, coarse to fine. */

@@ -77,6 +77,10 @@ static json_t *result_json(const struct solve_run *run, const struct solve_resul
     json_object_set_new(json, "cw_cutoff_lower", real(f->cw_cutoff_lower));
     json_object_set_new(json, "cw_cutoff_upper", real(f->cw_cutoff_upper));
     json_object_set_new(json, "share_beyond_cutoff", real(f->share_beyond_cutoff));
+    json_object_set_new(json, "cw_cut", real(result->cw_cut));
+    json_object_set_new(json, "shares",
+                        json_pack("[o,o,o]", real(result->share[0]), real(result->share[1]),
+                                  real(result->share[2])));
     json_object_set_new(json, "sinkage", real(f->sinkage));
     json_object_set_new(json, "trim", real(f->trim));
     json_object_set_new(json, "condition", real(f->condition));

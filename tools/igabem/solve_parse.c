@@ -25,6 +25,7 @@ static const char help[] =
     "  --ladder N          N levels from --refine on, each half as fine again: orders and\n"
     "                      Richardson's value\n"
     "  --sensitivity       also C_w at 0.85 and 1.15 of the cut-off angle\n"
+    "  --survey            also C_w by a wave cut, and the shares of bow, middle and stern\n"
     "\n"
     "Formulation (defaults by rule from the hull; docs/theory.md):\n"
     "  --cutoff T          t_c = tan(angle) of the short-wave filter, or none\n"
@@ -69,6 +70,7 @@ enum option_value {
     OPT_TOLERANCE,
     OPT_LADDER,
     OPT_SENSITIVITY,
+    OPT_SURVEY,
     OPT_CUTOFF,
     OPT_CUTOFF_FACTOR,
     OPT_STEM_LIMIT,
@@ -107,6 +109,7 @@ static const struct option options[] = {
     {"tolerance", required_argument, NULL, OPT_TOLERANCE},
     {"ladder", required_argument, NULL, OPT_LADDER},
     {"sensitivity", no_argument, NULL, OPT_SENSITIVITY},
+    {"survey", no_argument, NULL, OPT_SURVEY},
     {"cutoff", required_argument, NULL, OPT_CUTOFF},
     {"cutoff-factor", required_argument, NULL, OPT_CUTOFF_FACTOR},
     {"stem-limit", required_argument, NULL, OPT_STEM_LIMIT},
@@ -284,6 +287,9 @@ static int take(int opt, struct solve_request *r, bool *done)
         return integer(opt, 2, 16, &r->ladder);
     case OPT_SENSITIVITY:
         o->sensitivity = 1;
+        return CLI_OK;
+    case OPT_SURVEY:
+        r->survey = true;
         return CLI_OK;
     case OPT_CUTOFF:
         return number_or_none(opt, &o->cutoff_angle);

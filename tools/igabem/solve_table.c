@@ -57,6 +57,14 @@ static void print_result(const struct solve_run *run, const struct solve_result 
                f->cw_cutoff_upper, 100.0 * f->share_beyond_cutoff);
     else if (f->share_beyond_cutoff > 0)
         printf("  beyond t_c %.2g %% of C_w\n", 100.0 * f->share_beyond_cutoff);
+    if (isfinite(f->cw_pressure_linear))
+        printf("  C_w by pressure without the quadratic and run-up terms %.4e\n",
+               f->cw_pressure_linear);
+    if (isfinite(result->cw_cut))
+        printf("  C_w by a longitudinal wave cut %.4e\n", result->cw_cut);
+    if (isfinite(result->share[0]))
+        printf("  shares of the fore, middle and aft third: %.3g, %.3g, %.3g %%\n",
+               100.0 * result->share[0], 100.0 * result->share[1], 100.0 * result->share[2]);
     if (isfinite(f->sinkage))
         printf("  sinkage %.4g m, trim %.4g deg bow up\n", f->sinkage, f->trim * 57.29577951308232);
     if (result->options.kernel == IGABEM_KERNEL_KELVIN) {

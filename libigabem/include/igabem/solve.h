@@ -150,6 +150,19 @@ IGABEM_API igabem_status igabem_source_density(const igabem_solution *solution, 
 IGABEM_API igabem_status igabem_kochin(const igabem_solution *solution, size_t n, const double *t,
                                        double *h, double *dcw);
 
+/** Shares of C_w (Kochin) of zones along the hull: zone k has the sources between x[k-1] and x[k],
+ * zone 0 those ahead of x[0], zone n those aft of x[n-1] (x[n] decreases from the bow, m). The
+ * interference of two zones goes to both in equal parts, so a share may be negative. Fills
+ * share[n + 1], which add up to 1. */
+IGABEM_API igabem_status igabem_wave_shares(const igabem_solution *solution, size_t n,
+                                            const double *x, double *share);
+
+/** C_w from the waves along the line y = const beside a symmetric hull (Eggers, Sharma and Ward
+ * 1967), m; NAN: a transverse wave length off the side. It holds a part of the local disturbance of
+ * relative size e^{-k0 (y - B/2)}, and waves as filtered by the cut-off, which the Kochin function
+ * is not. Costs some thousand elevations. */
+IGABEM_API igabem_status igabem_wave_cut(const igabem_solution *solution, double y, double *cw);
+
 #ifdef __cplusplus
 }
 #endif
