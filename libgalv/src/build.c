@@ -309,7 +309,8 @@ galv_status galv_build_data(const galv_data *data, const galv_options *options, 
     galv_options_init(&defaults);
     if (!options)
         options = &defaults;
-    if (!data || !data->rows || !model || data->count == 0 || data->coordinates == 0)
+    if (!data || (!data->rows && !data->values) || !model || data->count == 0 ||
+        data->coordinates == 0)
         return galv_fail(GALV_ERROR_ARGUMENT, "data of at least one sample must be given");
     galv_status status = galv_options_check(options);
     if (!status && data->weights)
@@ -325,6 +326,7 @@ galv_status galv_build_data(const galv_data *data, const galv_options *options, 
                                    .coordinates = data->coordinates,
                                    .stored = data->coordinates,
                                    .index = index,
+                                   .values = data->values,
                                    .rows = data_rows},
                           .data = data};
     galv_job job = {.source = &source.head, .weights = data->weights, .options = options};

@@ -2,6 +2,7 @@
 
 #include "eigen.h"
 #include "error.h"
+#include "products.h"
 
 #include <cblas.h>
 #include <lapacke.h>
@@ -17,7 +18,8 @@ typedef struct latent_pass {
     const galv_spectrum *spectrum;
     size_t pairs;
     double *offset; /* pairs: projection of the mean, subtracted when centring */
-    double *v;      /* pairs x block: projections on the leading eigenvectors */
+    double *w;      /* the leading eigenvectors, active x pairs, padded */
+    double *v;      /* block x pairs, padded: projections on them */
     double *sorted; /* pairs x block: the same, group after group */
     double *moment; /* GROUPS matrices pairs x pairs, lower triangles of sums of v v^T */
     double energy[GROUPS];
@@ -32,6 +34,7 @@ typedef struct latent_pass {
 static void latent_free(latent_pass *pass)
 {
     free(pass->offset);
+    free(pass->w);
     free(pass->v);
     free(pass->sorted);
     free(pass->moment);
@@ -46,10 +49,11 @@ static void latent_free(latent_pass *pass)
 static galv_status latent_start(latent_pass *pass, const galv_stream *stream,
                                 const galv_spectrum *spectrum, const galv_model *model)
 {
-    size_t n = model->parameters, m = model->modes, pairs = model->kept;
+    size_t n = model->parameters, m = model->modes, pairs = model->kept, ld = galv_padded(pairs);
     *pass = (latent_pass){.spectrum = spectrum, .pairs = pairs};
     pass->offset = calloc(pairs, sizeof(double));
-    pass->v = malloc(pairs * stream->block * sizeof(double));
+    pass->w = malloc(ld * spectrum->active * sizeof(double));
+    pass->v = malloc(ld * stream->block * sizeof(double));
     pass->sorted = malloc(pairs * stream->block * sizeof(double));
     pass->moment = calloc(GROUPS * pairs * pairs, sizeof(double));
     pass->x = calloc(n + 1, sizeof(double));
@@ -57,8 +61,8 @@ static galv_status latent_start(latent_pass *pass, const galv_stream *stream,
     pass->sum_u = calloc(m, sizeof(double));
     pass->sum_xu = calloc(n * m + 1, sizeof(double));
     pass->sum_uu = calloc(m * m, sizeof(double));
-    if (!pass->offset || !pass->v || !pass->sorted || !pass->moment || !pass->x || !pass->sum_x ||
-        !pass->sum_u || !pass->sum_xu || !pass->sum_uu) {
+    if (!pass->offset || !pass->w || !pass->v || !pass->sorted || !pass->moment || !pass->x ||
+        !pass->sum_x || !pass->sum_u || !pass->sum_xu || !pass->sum_uu) {
         latent_free(pass);
         return galv_fail(GALV_ERROR_MEMORY, "projection of a block on %zu eigenvectors", pairs);
     }
@@ -68,6 +72,7 @@ static galv_status latent_start(latent_pass *pass, const galv_stream *stream,
         latent_free(pass);
         return status;
     }
+    galv_pad(spectrum->active, pairs, spectrum->vectors, pass->w);
     if (model->centred) {
         blasint active = (blasint)spectrum->active;
         cblas_dgemv(CblasColMajor, CblasTrans, active, (blasint)pairs, 1, spectrum->vectors, active,
@@ -81,11 +86,11 @@ static galv_status latent_start(latent_pass *pass, const galv_stream *stream,
 static void add_moments(latent_pass *pass, const galv_stream *stream, const galv_model *model,
                         size_t first, size_t count)
 {
-    size_t pairs = pass->pairs, active = pass->spectrum->active;
+    size_t pairs = pass->pairs, ld = galv_padded(pairs), active = pass->spectrum->active;
     for (size_t g = 0; g < GROUPS; g++) {
         size_t members = 0;
         for (size_t r = (g + GROUPS - first % GROUPS) % GROUPS; r < count; r += GROUPS) {
-            memcpy(pass->sorted + members++ * pairs, pass->v + r * pairs,
+            memcpy(pass->sorted + members++ * pairs, pass->v + r * ld,
                    pairs * sizeof *pass->sorted);
             pass->energy[g] += stream->energy[r];
             if (model->centred)
@@ -141,11 +146,9 @@ static galv_status project_samples(latent_pass *pass, galv_stream *stream,
                           "samples %zu...: other coordinates move than in the first pass", first);
         if (status)
             return status;
-        cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, (blasint)pairs, (blasint)count,
-                    (blasint)active, 1, pass->spectrum->vectors, (blasint)active, stream->rows,
-                    (blasint)active, 0, pass->v, (blasint)pairs);
+        galv_rows_times(count, active, 1, stream->rows, pairs, pass->w, pass->v);
         for (size_t r = 0; r < count; r++) {
-            double *v = pass->v + r * pairs;
+            double *v = pass->v + r * galv_padded(pairs);
             for (size_t k = 0; k < pairs; k++)
                 v[k] -= pass->offset[k];
             add_sample(pass, model, parameters, first + r, v);

@@ -2,6 +2,7 @@
  * and Gram matrices are both too large. */
 #include "eigen.h"
 #include "error.h"
+#include "products.h"
 #include "random.h"
 #include "spectrum.h"
 
@@ -21,27 +22,17 @@ typedef struct pass {
     galv_stream *stream;
     const galv_spectrum *spectrum;
     bool centre;
-    double *t; /* block x most vectors */
+    double *v, *y; /* active x b, padded: the vectors and their images */
+    double *t;     /* block x b, padded */
 } pass;
-
-/* y += rows (rows^T v) / N over the block in the stream. */
-static void add_block(const pass *p, size_t count, size_t b, const double *v, double *y)
-{
-    const galv_stream *stream = p->stream;
-    blasint n = (blasint)p->spectrum->active;
-    cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, (blasint)count, (blasint)b, n,
-                1 / (double)stream->source->samples, stream->rows, n, v, n, 0, p->t,
-                (blasint)count);
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, (blasint)b, (blasint)count, 1,
-                stream->rows, n, p->t, (blasint)count, 1, y, n);
-}
 
 static galv_status covariance_apply(void *context, size_t b, const double *v, double *y)
 {
     pass *p = context;
     galv_stream *stream = p->stream;
     size_t samples = stream->source->samples, n = p->spectrum->active;
-    memset(y, 0, n * b * sizeof *y);
+    galv_pad(n, b, v, p->v);
+    memset(p->y, 0, n * galv_padded(b) * sizeof *p->y);
     for (size_t first = 0; first < samples; first += stream->block) {
         size_t rest = samples - first, count = rest < stream->block ? rest : stream->block;
         galv_status status = galv_stream_read(stream, first, count);
@@ -49,13 +40,15 @@ static galv_status covariance_apply(void *context, size_t b, const double *v, do
             status =
                 galv_fail(GALV_ERROR_ARGUMENT,
                           "samples %zu...: other coordinates move than in the first pass", first);
-        if (!status)
-            add_block(p, count, b, v, y);
-        if (!status)
+        if (!status) {
+            galv_rows_times(count, n, 1 / (double)samples, stream->rows, b, p->v, p->t);
+            galv_rows_add_transposed(count, n, stream->rows, b, p->t, p->y);
             status = galv_stream_report(stream, first + count);
+        }
         if (status)
             return status;
     }
+    galv_unpad(n, b, p->y, y);
     for (size_t c = 0; p->centre && c < b; c++) {
         const double *mean = p->spectrum->mean;
         double dot = cblas_ddot((blasint)n, mean, 1, v + c * n, 1);
@@ -64,15 +57,18 @@ static galv_status covariance_apply(void *context, size_t b, const double *v, do
     return GALV_OK;
 }
 
-/* First pass: the sums, and D^T Omega with Omega Gaussian, N x b, as the start block. Rows are in
- * the stream's order of discovery, so the ones not yet discovered are zero. */
+/* First pass: the sums, and D^T Omega with Omega Gaussian, N x b, as the start block (active x b).
+ * Coordinates are in the stream's order of discovery, so those not yet discovered are zero and
+ * last.
+ */
 static galv_status sketch(galv_stream *stream, size_t b, uint64_t seed, double *start,
                           galv_sums *sums)
 {
-    size_t samples = stream->source->samples, stored = stream->source->stored;
-    double *omega = malloc(stream->block * b * sizeof *omega);
-    galv_status status = omega ? GALV_OK : galv_fail(GALV_ERROR_MEMORY, "random start block");
-    memset(start, 0, stored * b * sizeof *start);
+    size_t samples = stream->source->samples, ld = galv_padded(b);
+    double *omega = calloc(stream->block * ld, sizeof *omega);
+    double *image = calloc(stream->source->stored * ld, sizeof *image);
+    galv_status status =
+        omega && image ? GALV_OK : galv_fail(GALV_ERROR_MEMORY, "random start block");
     for (size_t first = 0; first < samples && !status; first += stream->block) {
         size_t rest = samples - first, count = rest < stream->block ? rest : stream->block;
         status = galv_stream_read(stream, first, count);
@@ -83,23 +79,16 @@ static galv_status sketch(galv_stream *stream, size_t b, uint64_t seed, double *
             galv_random random;
             galv_random_start(&random, seed, first + r);
             for (size_t c = 0; c < b; c++)
-                omega[c * count + r] = galv_random_normal(&random);
+                omega[r * ld + c] = galv_random_normal(&random);
         }
-        if (stream->active)
-            cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, (blasint)stream->active,
-                        (blasint)b, (blasint)count, 1, stream->rows, (blasint)stream->active, omega,
-                        (blasint)count, 1, start, (blasint)stored);
+        galv_rows_add_transposed(count, stream->active, stream->rows, b, omega, image);
         status = galv_stream_report(stream, first + count);
     }
+    if (!status)
+        galv_unpad(stream->active, b, image, start);
     free(omega);
+    free(image);
     return status;
-}
-
-/* From leading dimension `stored` to `active`. */
-static void compact(size_t stored, size_t active, size_t b, double *start)
-{
-    for (size_t c = 1; c < b; c++)
-        memmove(start + c * active, start + c * stored, active * sizeof *start);
 }
 
 static galv_status iterate(galv_stream *stream, const galv_goal *goal, size_t nev, size_t b,
@@ -115,17 +104,22 @@ static galv_status iterate(galv_stream *stream, const galv_goal *goal, size_t ne
                        .variance = goal->modes ? 0 : goal->variance,
                        .trace = spectrum->trace,
                        .seed = goal->seed};
-    p.t = malloc(stream->block * b * sizeof *p.t);
+    size_t ld = galv_padded(b);
+    p.v = malloc(spectrum->active * ld * sizeof *p.v);
+    p.y = malloc(spectrum->active * ld * sizeof *p.y);
+    p.t = malloc(stream->block * ld * sizeof *p.t);
     spectrum->values = malloc(nev * sizeof *spectrum->values);
     spectrum->residuals = malloc(nev * sizeof *spectrum->residuals);
     spectrum->vectors = malloc(spectrum->active * nev * sizeof *spectrum->vectors);
     galv_status status = GALV_OK;
-    if (!p.t || !spectrum->values || !spectrum->residuals || !spectrum->vectors)
+    if (!p.v || !p.y || !p.t || !spectrum->values || !spectrum->residuals || !spectrum->vectors)
         status = galv_fail(GALV_ERROR_MEMORY, "%zu eigenvectors of %zu coordinates", nev,
                            spectrum->active);
     if (!status)
         status = galv_eigen_krylov(&op, &run, start, spectrum->values, spectrum->vectors,
                                    spectrum->residuals);
+    free(p.v);
+    free(p.y);
     free(p.t);
     if (status)
         return status;
@@ -164,7 +158,6 @@ galv_status galv_spectrum_randomised(galv_stream *stream, const galv_goal *goal,
     if (!status)
         status = galv_sums_finish(&sums, stream, goal->centre, spectrum);
     if (!status) {
-        compact(stored, spectrum->active, b, start);
         nev = nev < spectrum->active ? nev : spectrum->active;
         b = b < spectrum->active ? b : spectrum->active;
         status = iterate(stream, goal, nev, b, start, spectrum);

@@ -8,10 +8,11 @@
 /* Produces rows of a data set that nobody has to hold at once. */
 typedef struct galv_source galv_source;
 struct galv_source {
-    size_t samples;      /* N */
-    size_t coordinates;  /* L, with those that never move */
-    size_t stored;       /* coordinates a row holds */
-    const size_t *index; /* place of stored coordinate s among the L */
+    size_t samples;       /* N */
+    size_t coordinates;   /* L, with those that never move */
+    size_t stored;        /* coordinates a row holds */
+    const size_t *index;  /* place of stored coordinate s among the L */
+    const double *values; /* all rows, when they are in memory; else NULL and `rows` is called */
     /* Fills rows (count rows of `stored` numbers) with samples first..first+count-1. A failure's
      * message names the sample. */
     galv_status (*rows)(galv_source *source, size_t first, size_t count, double *rows);
@@ -47,10 +48,12 @@ typedef struct galv_stream {
     size_t block;        /* most rows at once */
     size_t active;       /* coordinates that moved in some row read so far */
     size_t *place;       /* place[a]: stored coordinate of active coordinate a */
-    unsigned char *seen; /* per stored coordinate */
+    unsigned char *seen; /* per stored coordinate: whether it has moved */
+    uint64_t *hidden;    /* per stored coordinate: all bits set until it has a place */
     double *scale;       /* per stored coordinate, square root of its weight; NULL: 1 */
     double *shift;       /* per stored coordinate, subtracted; NULL: none */
-    double *raw;         /* block x stored */
+    double *buffer;      /* block x stored, unless the source's values are in memory */
+    const double *raw;   /* the block as the source gave it */
     double *packed;      /* block x active, scaled and shifted */
     const double *rows;  /* what readers use: packed, or raw when that is the same */
     double *energy;      /* per row of the block, squared norm of `rows` */

@@ -2,6 +2,7 @@
 
 #include "eigen.h"
 #include "error.h"
+#include "products.h"
 
 #include <cblas.h>
 #include <float.h>
@@ -40,12 +41,16 @@ galv_status galv_sums_start(galv_sums *sums, size_t stored)
 
 void galv_sums_add(galv_sums *sums, const galv_stream *stream, size_t count)
 {
+    enum { SLICE = 512 };
     size_t active = stream->active;
-    for (size_t r = 0; r < count; r++) {
-        const double *row = stream->rows + r * active;
+    for (size_t r = 0; r < count; r++)
         sums->energy += stream->energy[r];
-        for (size_t a = 0; a < active; a++)
-            sums->sum[a] += row[a];
+#pragma omp parallel for schedule(static)
+    for (size_t first = 0; first < active; first += SLICE) {
+        size_t last = first + SLICE < active ? first + SLICE : active;
+        for (size_t r = 0; r < count; r++)
+            for (size_t a = first; a < last; a++)
+                sums->sum[a] += stream->rows[r * active + a];
     }
 }
 
@@ -75,15 +80,24 @@ enum { DENSE_ORDER = 512, KRYLOV_BLOCK = 32 };
 
 typedef struct matrix {
     size_t n;
-    const double *a;
+    const double *a; /* both triangles */
+    double *v, *y;   /* n x KRYLOV_BLOCK, padded */
 } matrix;
 
 static galv_status matrix_apply(void *context, size_t b, const double *v, double *y)
 {
     const matrix *m = context;
-    cblas_dsymm(CblasColMajor, CblasLeft, CblasLower, (blasint)m->n, (blasint)b, 1, m->a,
-                (blasint)m->n, v, (blasint)m->n, 0, y, (blasint)m->n);
+    galv_pad(m->n, b, v, m->v);
+    galv_rows_times(m->n, m->n, 1, m->a, b, m->v, m->y);
+    galv_unpad(m->n, b, m->y, y);
     return GALV_OK;
+}
+
+static void mirror(size_t n, double *a)
+{
+    for (size_t j = 0; j < n; j++)
+        for (size_t i = j + 1; i < n; i++)
+            a[i * n + j] = a[j * n + i];
 }
 
 /* Pairs above the rounding of the decomposition: the rank as far as doubles can tell. */
@@ -127,10 +141,11 @@ static galv_status solve_dense(size_t n, double *a, size_t *known, double *value
     return GALV_OK;
 }
 
-static galv_status solve_krylov(size_t n, const double *a, size_t nev, uint64_t seed, size_t *known,
+static galv_status solve_krylov(size_t n, double *a, size_t nev, uint64_t seed, size_t *known,
                                 double *values, double *vectors, double *residuals)
 {
-    matrix m = {.n = n, .a = a};
+    size_t room = n * galv_padded(KRYLOV_BLOCK) * sizeof(double);
+    matrix m = {.n = n, .a = a, .v = malloc(room), .y = malloc(room)};
     galv_operator op = {.n = n, .apply = matrix_apply, .context = &m};
     galv_krylov run = {.nev = nev,
                        .block = KRYLOV_BLOCK,
@@ -138,7 +153,16 @@ static galv_status solve_krylov(size_t n, const double *a, size_t nev, uint64_t 
                        .most = 400,
                        .tolerance = 1e-12,
                        .seed = seed};
-    galv_status status = galv_eigen_krylov(&op, &run, NULL, values, vectors, residuals);
+    galv_status status = GALV_OK;
+    if (m.v && m.y) {
+        mirror(n, a);
+        status = galv_eigen_krylov(&op, &run, NULL, values, vectors, residuals);
+    } else {
+        status =
+            galv_fail(GALV_ERROR_MEMORY, "a block of %d vectors of order %zu", KRYLOV_BLOCK, n);
+    }
+    free(m.v);
+    free(m.y);
     if (status)
         return status;
     *known = numerical_rank(n, run.found, values);

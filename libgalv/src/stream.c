@@ -1,4 +1,5 @@
 #include "error.h"
+#include "simd.h"
 #include "source.h"
 
 #include <math.h>
@@ -13,17 +14,21 @@ galv_status galv_stream_start(galv_stream *stream, galv_source *source, size_t b
     *stream = (galv_stream){.source = source, .block = block, .progress_share = 1};
     stream->place = malloc(stored * sizeof *stream->place);
     stream->seen = calloc(stored, 1);
-    stream->raw = malloc(block * stored * sizeof *stream->raw);
+    stream->hidden = malloc(stored * sizeof *stream->hidden);
+    stream->buffer = source->values ? NULL : malloc(block * stored * sizeof *stream->buffer);
     stream->packed = malloc(block * stored * sizeof *stream->packed);
     stream->energy = malloc(block * sizeof *stream->energy);
     stream->scale = weights ? malloc(stored * sizeof *stream->scale) : NULL;
     stream->shift = shifted ? calloc(stored, sizeof *stream->shift) : NULL;
-    if (!stream->place || !stream->seen || !stream->raw || !stream->packed || !stream->energy ||
-        (weights && !stream->scale) || (shifted && !stream->shift)) {
+    if (!stream->place || !stream->seen || !stream->hidden || !stream->packed || !stream->energy ||
+        (!source->values && !stream->buffer) || (weights && !stream->scale) ||
+        (shifted && !stream->shift)) {
         galv_stream_end(stream);
         return galv_fail(GALV_ERROR_MEMORY, "a block of %zu samples of %zu coordinates", block,
                          stored);
     }
+    for (size_t s = 0; s < stored; s++)
+        stream->hidden[s] = UINT64_MAX;
     for (size_t s = 0; weights && s < stored; s++)
         stream->scale[s] = sqrt(weights[source->index[s]]);
     return GALV_OK;
@@ -35,36 +40,25 @@ void galv_stream_end(galv_stream *stream)
     free(stream->seen);
     free(stream->scale);
     free(stream->shift);
-    free(stream->raw);
+    free(stream->hidden);
+    free(stream->buffer);
     free(stream->packed);
     free(stream->energy);
     *stream = (galv_stream){.source = NULL};
 }
 
-/* Gives places to the coordinates newly seen; those that have one are marked 3. */
+/* Gives places to the coordinates newly seen. */
 static void adopt(galv_stream *stream)
 {
     for (size_t s = 0; s < stream->source->stored; s++)
-        if (stream->seen[s] == 1) {
-            stream->seen[s] = 3;
+        if (stream->seen[s] && stream->hidden[s]) {
+            stream->hidden[s] = 0;
             stream->place[stream->active++] = s;
         }
 }
 
 /* A coordinate that is zero in all rows so far contributes nothing to any inner product with them,
  * so it can join when it first moves. */
-static void discover(galv_stream *stream, size_t count)
-{
-    size_t stored = stream->source->stored;
-    unsigned char *seen = stream->seen;
-    for (size_t r = 0; r < count; r++) {
-        const double *row = stream->raw + r * stored;
-        for (size_t s = 0; s < stored; s++)
-            seen[s] |= row[s] != 0;
-    }
-    adopt(stream);
-}
-
 void galv_stream_expect(galv_stream *stream, size_t n, const double *rows)
 {
     size_t stored = stream->source->stored;
@@ -72,6 +66,30 @@ void galv_stream_expect(galv_stream *stream, size_t n, const double *rows)
         for (size_t s = 0; s < stored; s++)
             stream->seen[s] |= rows[i * stored + s] != 0;
     adopt(stream);
+}
+
+/* Whether any number under the mask differs from zero of either sign. */
+GALV_SIMD static bool any_under(size_t n, const double *row, const uint64_t *mask)
+{
+    uint64_t any = 0;
+    for (size_t i = 0; i < n; i++) {
+        uint64_t bits;
+        memcpy(&bits, row + i, sizeof bits);
+        any |= bits & mask[i];
+    }
+    return any << 1 != 0;
+}
+
+/* Most blocks have nothing new, which is quickly told. */
+static void discover(galv_stream *stream, size_t count)
+{
+    size_t stored = stream->source->stored;
+    bool news = false;
+#pragma omp parallel for schedule(static) reduction(|| : news)
+    for (size_t r = 0; r < count; r++)
+        news = news || any_under(stored, stream->raw + r * stored, stream->hidden);
+    if (news)
+        galv_stream_expect(stream, count, stream->raw);
 }
 
 static void pack_row(const galv_stream *stream, const double *raw, double *row)
@@ -125,9 +143,11 @@ galv_status galv_stream_read(galv_stream *stream, size_t first, size_t count)
 {
     galv_source *source = stream->source;
     size_t stored = source->stored;
-    galv_status status = source->rows(source, first, count, stream->raw);
+    galv_status status =
+        source->values ? GALV_OK : source->rows(source, first, count, stream->buffer);
     if (status)
         return status;
+    stream->raw = source->values ? source->values + first * stored : stream->buffer;
     if (stream->shift && first == 0)
         memcpy(stream->shift, stream->raw, stored * sizeof *stream->shift);
     if (stream->active < stored)

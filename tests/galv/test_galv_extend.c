@@ -162,7 +162,11 @@ static void test_plain_data(void)
     for (size_t i = 0; i < LENGTH; i++)
         weights[i] = 1 + (double)i;
     struct matrix matrix = {rows, LENGTH, COUNT};
-    galv_data data = {COUNT, LENGTH, matrix_rows, &matrix, weights};
+    galv_data data = {.count = COUNT,
+                      .coordinates = LENGTH,
+                      .rows = matrix_rows,
+                      .context = &matrix,
+                      .weights = weights};
     double *values = fixture_spectrum(COUNT, LENGTH, rows, true, weights, 0, NULL);
     galv_options options;
     galv_options_init(&options);
@@ -171,6 +175,14 @@ static void test_plain_data(void)
     CU_ASSERT_EQUAL_FATAL(galv_build_data(&data, &options, &model), GALV_OK);
     for (size_t k = 0; k < LENGTH; k++)
         CHECK_CLOSE(galv_model_eigenvalues(model)[k], values[k], 1e-14 * values[0]);
+    /* The array itself gives the same bits as its rows one by one. */
+    galv_data array = {.count = COUNT, .coordinates = LENGTH, .weights = weights, .values = rows};
+    galv_model *same = NULL;
+    CU_ASSERT_EQUAL_FATAL(galv_build_data(&array, &options, &same), GALV_OK);
+    CU_ASSERT_EQUAL(memcmp(galv_model_eigenvalues(model), galv_model_eigenvalues(same),
+                           LENGTH * sizeof(double)),
+                    0);
+    galv_model_free(same);
     double x, u[LENGTH] = {0};
     galv_shape *shape = fixture_shape(GALV_LINEAR, 1);
     CU_ASSERT_EQUAL(galv_backmap(model, shape, u, &x, NULL), GALV_ERROR_ARGUMENT);

@@ -131,7 +131,8 @@ GALV_API galv_status galv_extra_balance(const galv_shape *shape, size_t npoints,
 GALV_API galv_status galv_extra_change(const galv_extra *extra, size_t npoints, const double *xyz,
                                        const double *d, double *values);
 
-/** Samples that do not come from a galv_shape: any N x L matrix, produced row by row. */
+/** Samples that do not come from a galv_shape: any N x L matrix, in memory or produced row by row.
+ */
 typedef struct galv_data {
     size_t count;       /**< N */
     size_t coordinates; /**< L */
@@ -140,6 +141,8 @@ typedef struct galv_data {
     int (*rows)(void *context, size_t first, size_t count, double *rows);
     void *context;         /**< borrowed */
     const double *weights; /**< L weights, or NULL */
+    const double *values;  /**< the N rows themselves, borrowed for the call; then `rows` is not
+                              called. NULL: ask `rows` */
 } galv_data;
 
 /** The latent space of a data set: as galv_build(), without points or parameters (options->weights
