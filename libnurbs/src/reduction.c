@@ -1,5 +1,6 @@
 #include "reduction.h"
 #include "band.h"
+#include "combine.h"
 #include "error.h"
 #include "multiversion.h"
 
@@ -19,7 +20,9 @@ nurbs_status reduction_create(int degree, size_t fine_size, const double *fine, 
     r->first = malloc(fine_size * sizeof *r->first);
     r->rows = malloc(fine_size * width * sizeof *r->rows);
     r->factor = malloc(size * width * sizeof *r->factor);
-    if (!r->knots || !r->first || !r->rows || !r->factor) {
+    r->column = malloc(size * sizeof *r->column);
+    r->weights = malloc(fine_size * width * sizeof *r->weights);
+    if (!r->knots || !r->first || !r->rows || !r->factor || !r->column || !r->weights) {
         reduction_free(r);
         return nurbs_fail(NURBS_ERROR_MEMORY, "no memory to simplify %zu control points", size);
     }
@@ -34,6 +37,8 @@ void reduction_free(struct reduction *r)
     free(r->first);
     free(r->rows);
     free(r->factor);
+    free(r->column);
+    free(r->weights);
     memset(r, 0, sizeof *r);
 }
 
@@ -57,27 +62,46 @@ static void factorize(size_t n, size_t width, double *a)
 }
 
 /* Solves with the factor for `columns` right-hand sides of the same stride. */
-NURBS_MULTIVERSION
 static void solve(size_t n, size_t width, const double *a, size_t columns, double *b)
 {
+    const ptrdiff_t stride = (ptrdiff_t)columns;
+    double weight[NURBS_MAX_DEGREE];
     for (size_t i = 0; i < n; i++) {
         const double *row = a + i * width;
-        double *to = b + i * columns;
-        for (size_t k = 1; k < width && k <= i; k++)
-            for (size_t c = 0; c < columns; c++)
-                to[c] -= row[k] * b[(i - k) * columns + c];
-        for (size_t c = 0; c < columns; c++)
-            to[c] *= row[0];
+        const size_t count = i < width - 1 ? i : width - 1;
+        for (size_t k = 0; k < count; k++)
+            weight[k] = -row[0] * row[k + 1];
+        combine(count, weight, count ? b + (i - 1) * columns : b, -stride, columns, row[0],
+                b + i * columns);
     }
     for (size_t i = n; i-- > 0;) {
-        double *to = b + i * columns;
-        for (size_t k = 1; k < width && i + k < n; k++) {
-            const double entry = a[(i + k) * width + k];
-            for (size_t c = 0; c < columns; c++)
-                to[c] -= entry * b[(i + k) * columns + c];
-        }
-        for (size_t c = 0; c < columns; c++)
-            to[c] *= a[i * width];
+        const double inverse = a[i * width];
+        size_t count = 0;
+        for (; count + 1 < width && i + count + 1 < n; count++)
+            weight[count] = -inverse * a[(i + count + 1) * width + count + 1];
+        combine(count, weight, count ? b + (i + 1) * columns : b, stride, columns, inverse,
+                b + i * columns);
+    }
+}
+
+/* The columns of A between the ends: rows low to high - 1 of column k, its weights at `start`. */
+static void set_columns(struct reduction *r)
+{
+    const size_t p = (size_t)r->degree, width = p + 1;
+    size_t low = 0, high = 0, start = 0;
+    for (size_t k = 0; k < r->size; k++) {
+        while (low < r->fine_size && r->first[low] + p < k)
+            low++;
+        while (high < r->fine_size && r->first[high] <= k)
+            high++;
+        size_t first = low, last = high;
+        while (first < last && r->rows[first * width + k - r->first[first]] == 0.0)
+            first++;
+        while (last > first && r->rows[(last - 1) * width + k - r->first[last - 1]] == 0.0)
+            last--;
+        r->column[k] = (struct column){first, last - first, start};
+        for (size_t i = first; i < last; i++)
+            r->weights[start++] = r->rows[i * width + k - r->first[i]];
     }
 }
 
@@ -91,29 +115,43 @@ void reduction_update(struct reduction *r)
         r->first[i] = span - p;
         blossom(r->degree, r->knots, span, r->fine + i + 1, r->rows + i * width);
     }
+    set_columns(r);
     if (r->size < 3)
         return;
     memset(r->factor, 0, r->size * width * sizeof *r->factor);
+    memset(r->end, 0, sizeof r->end);
     for (size_t i = 0; i < r->fine_size; i++) {
         const double *row = r->rows + i * width;
         for (size_t a = 0; a < width; a++) {
-            const size_t column = r->first[i] + a;
-            if (row[a] == 0.0 || column == 0 || column == r->size - 1)
-                continue;
-            for (size_t b = 0; b <= a; b++)
-                r->factor[column * width + a - b] += row[a] * row[b];
+            double *to = r->factor + (r->first[i] + a) * width;
+            for (size_t b = 0; b <= a && row[a] != 0.0; b++)
+                to[a - b] += row[a] * row[b];
         }
+    }
+    for (size_t k = 1; k < width && k < r->size; k++) {
+        r->end[0][k] = r->factor[k * width + k];
+        r->end[1][k] = r->factor[(r->size - 1) * width + k];
     }
     /* The first interior row has index 1; its neighbours to the left are fixed. */
     factorize(r->size - 2, width, r->factor + width);
 }
 
+void reduction_set(struct reduction *r, size_t size, const double *knots)
+{
+    const size_t bytes = (size + (size_t)r->degree + 1) * sizeof *knots;
+    if (size == r->size && memcmp(r->knots, knots, bytes) == 0)
+        return;
+    r->size = size;
+    memcpy(r->knots, knots, bytes);
+    reduction_update(r);
+}
+
 /* Boehm's insertion of the removed knot, c_i = ratio_i c'_i + (1 - ratio_i) c'_{i-1}, has the left
  * null vector g. */
-static void set_functional(const struct reduction *r, size_t index, struct removal *removal)
+void removal_functional(int degree, const double *t, size_t index, struct removal *removal)
 {
-    const size_t p = (size_t)r->degree;
-    const double *t = r->knots, knot = t[index];
+    const size_t p = (size_t)degree;
+    const double knot = t[index];
     size_t others = 0; /* further copies */
     while (t[index - 1 - others] == knot)
         others++;
@@ -139,7 +177,7 @@ void reduction_assess(const struct reduction *r, size_t index, double negligible
                       struct removal *removal)
 {
     const size_t width = (size_t)r->degree + 1, m = r->size;
-    set_functional(r, index, removal);
+    removal_functional(r->degree, r->knots, index, removal);
     memset(removal->x, 0, m * sizeof *removal->x);
     for (size_t k = 0; k < removal->count; k++)
         removal->x[removal->first + k] = removal->functional[k];
@@ -200,53 +238,42 @@ void reduction_drop(struct reduction *r, size_t index)
     r->size--;
 }
 
-NURBS_MULTIVERSION
 void reduction_project(const struct reduction *r, size_t columns, const double *fine,
                        double *coarse)
 {
-    const size_t width = (size_t)r->degree + 1, m = r->size, n = r->fine_size;
-    const double *ends[2] = {fine, fine + (n - 1) * columns};
-    memset(coarse, 0, m * columns * sizeof *coarse);
-    for (size_t i = 0; i < n; i++) {
-        const double *row = r->rows + i * width;
-        for (size_t k = 0; k < width; k++) {
-            const size_t column = r->first[i] + k;
-            if (row[k] == 0.0 || column == 0 || column == m - 1)
-                continue;
-            double *to = coarse + column * columns;
-            const double *from = fine + i * columns;
-            for (size_t c = 0; c < columns; c++)
-                to[c] += row[k] * from[c];
-            for (int e = 0; e < 2; e++) { /* move the fixed end points to the right-hand side */
-                const size_t end = e == 0 ? 0 : m - 1;
-                if (end < r->first[i] || end - r->first[i] >= width)
-                    continue;
-                const double product = row[k] * row[end - r->first[i]];
-                if (product != 0.0)
-                    for (size_t c = 0; c < columns; c++)
-                        to[c] -= product * ends[e][c];
-            }
+    const size_t width = (size_t)r->degree + 1, m = r->size;
+    const double *last = fine + (r->fine_size - 1) * columns;
+    memcpy(coarse, fine, columns * sizeof *coarse);
+    memcpy(coarse + (m - 1) * columns, last, columns * sizeof *coarse);
+    for (size_t k = 1; k + 1 < m; k++) {
+        const struct column column = r->column[k];
+        double *to = coarse + k * columns;
+        combine(column.count, r->weights + column.start, fine + column.first * columns,
+                (ptrdiff_t)columns, columns, 0.0, to);
+        /* Move the fixed end points to the right-hand side. */
+        if (k < width) {
+            const double weight = -r->end[0][k];
+            combine(1, &weight, fine, 0, columns, 1.0, to);
+        }
+        if (m - 1 - k < width) {
+            const double weight = -r->end[1][m - 1 - k];
+            combine(1, &weight, last, 0, columns, 1.0, to);
         }
     }
-    memcpy(coarse, ends[0], columns * sizeof *coarse);
-    memcpy(coarse + (m - 1) * columns, ends[1], columns * sizeof *coarse);
     if (m > 2)
         solve(m - 2, width, r->factor + width, columns, coarse + columns);
 }
 
-NURBS_MULTIVERSION
-void reduction_expand(const struct reduction *r, size_t columns, const double *coarse, double *fine)
+void reduction_expand_row(const struct reduction *r, size_t i, size_t columns, const double *coarse,
+                          double *row)
 {
     const size_t width = (size_t)r->degree + 1;
-    for (size_t i = 0; i < r->fine_size; i++) {
-        const double *row = r->rows + i * width;
-        double *to = fine + i * columns;
-        memset(to, 0, columns * sizeof *to);
-        for (size_t k = 0; k < width; k++) {
-            const double *from = coarse + (r->first[i] + k) * columns;
-            if (row[k] != 0.0)
-                for (size_t c = 0; c < columns; c++)
-                    to[c] += row[k] * from[c];
-        }
-    }
+    combine(width, r->rows + i * width, coarse + r->first[i] * columns, (ptrdiff_t)columns, columns,
+            0.0, row);
+}
+
+void reduction_expand(const struct reduction *r, size_t columns, const double *coarse, double *fine)
+{
+    for (size_t i = 0; i < r->fine_size; i++)
+        reduction_expand_row(r, i, columns, coarse, fine + i * columns);
 }

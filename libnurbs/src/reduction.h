@@ -11,6 +11,11 @@
 
 #include <nurbs/basis.h>
 
+/* Weights of one column of A: rows first to first + count - 1, from `start` of the weights on. */
+struct column {
+    size_t first, count, start;
+};
+
 struct reduction {
     int degree;
     size_t fine_size, size; /* control points over the fine and the coarse knots */
@@ -19,6 +24,10 @@ struct reduction {
     size_t *first;          /* rows of A: first column */
     double *rows;           /* fine_size * (degree + 1) */
     double *factor;         /* Cholesky factor of the interior normal matrix, by rows, banded */
+    struct column *column;  /* size */
+    double *weights;        /* of the columns, fine_size * (degree + 1) */
+    double end[2][NURBS_MAX_DEGREE + 1]; /* products of the first and the last column of A with the
+                                            one `k` away */
 };
 
 /* The removal of one copy of a knot is the condition g c = 0 on `count` coarse control points; the
@@ -42,11 +51,17 @@ nurbs_status reduction_create(int degree, size_t fine_size, const double *fine, 
                               const double *knots, struct reduction *r);
 void reduction_free(struct reduction *r);
 
+/* Replaces the coarse knots, of `size` control points, at most as many as at creation. */
+void reduction_set(struct reduction *r, size_t size, const double *knots);
+
 /* After a change of the coarse knots: A and the factor. */
 void reduction_update(struct reduction *r);
 
-/* Fills the removal of the knot with this index; rows where the influence is below `negligible`
- * times its largest are left out of low to high. */
+/* Fills index, first, count, functional and ratio for the last copy of a coarse knot. */
+void removal_functional(int degree, const double *knots, size_t index, struct removal *removal);
+
+/* Fills the whole removal of the knot with this index; rows where the influence is below
+ * `negligible` times its largest are left out of low to high. */
 void reduction_assess(const struct reduction *r, size_t index, double negligible,
                       struct removal *removal);
 
@@ -63,7 +78,10 @@ void reduction_drop(struct reduction *r, size_t index);
 void reduction_project(const struct reduction *r, size_t columns, const double *fine,
                        double *coarse);
 
-/* fine = A coarse. */
+/* Row i of A coarse; and all of it. */
+void reduction_expand_row(const struct reduction *r, size_t i, size_t columns, const double *coarse,
+                          double *row);
+
 void reduction_expand(const struct reduction *r, size_t columns, const double *coarse,
                       double *fine);
 

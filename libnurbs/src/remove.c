@@ -53,10 +53,11 @@ static nurbs_status remove_knot(const struct subject *s, int direction, double k
     }
     if (status == NURBS_OK) {
         minimize_largest(&t, s->rounding);
-        status = simple_create(s, &t, r);
+        status = simple_create(s, t.along, r);
     }
     if (status == NURBS_OK) {
-        if (subject_read(s, &t, r->points, r->weights))
+        const struct coarse_net net = thinning_net(&t);
+        if (subject_read(s, &net, r->points, r->weights))
             r->bound = subject_certify(s, &t, r->points, r->weights);
         else
             status = nurbs_fail(NURBS_ERROR_NUMERIC,

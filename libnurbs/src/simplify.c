@@ -1,6 +1,7 @@
 /* Simplification of curves and surfaces by knot removal. */
 #include "error.h"
 #include "subject.h"
+#include "tensor_thin.h"
 
 #include <nurbs/simplify.h>
 
@@ -124,32 +125,65 @@ static void restore_exact(const struct subject *s, const size_t size[2], int kee
     }
 }
 
+/* One result within about the tolerance, and its bound. */
+static nurbs_status attempt_thrifty(const struct subject *s, double tolerance, unsigned flags,
+                                    struct simple *r)
+{
+    struct thinning t;
+    nurbs_status status = thin(s, tolerance, flags, &t);
+    if (status != NURBS_OK)
+        return status;
+    const struct coarse_net net = thinning_net(&t);
+    status = simple_create(s, t.along, r);
+    r->bound = HUGE_VAL;
+    if (status == NURBS_OK && subject_read(s, &net, r->points, r->weights)) {
+        restore_exact(s, net.size, (flags & NURBS_KEEP_EDGES) && s->directions == 2, r->points,
+                      r->weights);
+        r->bound = subject_certify(s, &t, r->points, r->weights);
+    }
+    thinning_free(&t);
+    return status;
+}
+
+static nurbs_status attempt_quick(const struct subject *s, double tolerance, unsigned flags,
+                                  struct simple *r)
+{
+    struct tensor_thin t;
+    struct wall wall[3] = {{0, 0.0}, {0, 0.0}, {0, 0.0}};
+    if (flags & NURBS_KEEP_EDGES)
+        set_walls(s, wall);
+    nurbs_status status =
+        tensor_thin_create(s, tolerance, (flags & NURBS_KEEP_KINKS) != 0, wall, &t);
+    if (status != NURBS_OK)
+        return status;
+    status = tensor_thin_run(&t);
+    const struct coarse_net net = tensor_thin_net(&t);
+    if (status == NURBS_OK)
+        status = simple_create(s, t.along, r);
+    r->bound = HUGE_VAL;
+    if (status == NURBS_OK && subject_read(s, &net, r->points, r->weights)) {
+        restore_exact(s, net.size, (flags & NURBS_KEEP_EDGES) != 0, r->points, r->weights);
+        r->bound = tensor_thin_certify(&t, r->points, r->weights);
+    }
+    tensor_thin_free(&t);
+    return status;
+}
+
 /* Thins within a tolerance that is tightened until the certificate, which counts what is kept
  * exactly, holds: snapping an edge to its plane can cost more than thinning left. */
 static nurbs_status simplify(const struct subject *s, double tolerance, unsigned flags,
                              struct simple *r)
 {
+    const int quick = s->directions == 2 && !(flags & NURBS_THRIFTY);
     memset(r, 0, sizeof *r);
     double target = tolerance - s->rounding;
     for (int attempt = 0; attempt < 8 && target > 0.0; attempt++) {
-        struct thinning t;
-        nurbs_status status = thin(s, target, flags, &t);
-        if (status != NURBS_OK)
-            return status;
-        const size_t size[2] = {t.along[0].size, s->directions == 2 ? t.along[1].size : 1};
-        status = simple_create(s, &t, r);
-        r->bound = 2.0 * tolerance;
-        if (status == NURBS_OK && subject_read(s, &t, r->points, r->weights)) {
-            restore_exact(s, size, (flags & NURBS_KEEP_EDGES) && s->directions == 2, r->points,
-                          r->weights);
-            r->bound = subject_certify(s, &t, r->points, r->weights);
-        }
-        thinning_free(&t);
+        nurbs_status status =
+            quick ? attempt_quick(s, target, flags, r) : attempt_thrifty(s, target, flags, r);
         if (status != NURBS_OK || r->bound <= tolerance)
             return status;
         target *= 0.97 * fmax(0.5, fmin(1.0, tolerance / r->bound));
         simple_free(r);
-        memset(r, 0, sizeof *r);
     }
     return NURBS_OK;
 }
@@ -193,12 +227,13 @@ nurbs_status nurbs_surface_simplify(const nurbs_surface *surface, double toleran
     if (status != NURBS_OK)
         return status;
     *result = NULL;
-    if (flags & ~(unsigned)(NURBS_KEEP_EDGES | NURBS_KEEP_KINKS))
+    if (flags & ~(unsigned)(NURBS_KEEP_EDGES | NURBS_KEEP_KINKS | NURBS_THRIFTY))
         return nurbs_fail(NURBS_ERROR_ARGUMENT, "flags are %#x, expected NURBS_KEEP_*", flags);
     const struct axis *const axes[2] = {&surface->axis[0], &surface->axis[1]};
     struct subject s;
     struct simple r;
-    status = subject_create(2, PARTS, axes, surface->points, surface->weights, &s);
+    status = subject_create(2, flags & NURBS_THRIFTY ? PARTS : 1, axes, surface->points,
+                            surface->weights, &s);
     if (status != NURBS_OK)
         return status;
     status = simplify(&s, tolerance, flags, &r);

@@ -118,21 +118,24 @@ nurbs_status subject_create(int directions, int parts, const struct axis *const 
         s->degree[d] = axes[d]->degree;
         s->size[d] = axes[d]->size;
         s->knots[d] = axes[d]->knots;
-        status = divide(s->degree[d], s->size[d], s->knots[d], parts, &s->divided[d],
-                        &s->divided_size[d]);
+        if (parts > 1)
+            status = divide(s->degree[d], s->size[d], s->knots[d], parts, &s->divided[d],
+                            &s->divided_size[d]);
     }
     if (status == NURBS_OK) {
         s->net = malloc((size_t)s->planes * count_of(s->size) * sizeof(double));
-        s->divided_net = malloc((size_t)s->planes * count_of(s->divided_size) * sizeof(double));
-        if (!s->net || !s->divided_net)
+        if (parts > 1)
+            s->divided_net = malloc((size_t)s->planes * count_of(s->divided_size) * sizeof(double));
+        if (!s->net || (parts > 1 && !s->divided_net))
             status = nurbs_fail(NURBS_ERROR_MEMORY, "no memory to simplify %zu x %zu points",
                                 s->size[0], s->size[1]);
     }
     if (status == NURBS_OK) {
         set_net(s);
-        status = isfinite(s->rounding)
-                     ? set_divided_net(s, axes)
-                     : nurbs_fail(NURBS_ERROR_NUMERIC, "points times relative weights overflow");
+        if (!isfinite(s->rounding))
+            status = nurbs_fail(NURBS_ERROR_NUMERIC, "points times relative weights overflow");
+        else if (parts > 1)
+            status = set_divided_net(s, axes);
     }
     if (status != NURBS_OK)
         subject_free(s);
@@ -156,46 +159,56 @@ struct thinning_request subject_request(const struct subject *s, int divided, do
     return request;
 }
 
-int subject_read(const struct subject *s, const struct thinning *t, double *points, double *weights)
+struct coarse_net thinning_net(const struct thinning *t)
 {
     const size_t area = t->size[0] * t->size[1];
-    const size_t size[2] = {t->along[0].size, s->directions == 2 ? t->along[1].size : 1};
-    for (size_t i = 0; i < size[0]; i++)
-        for (size_t j = 0; j < size[1]; j++) {
-            const double *net = t->coarse + i * t->size[1] + j;
-            const double w = s->weights ? net[3 * area] / s->radius : 1.0;
+    return (struct coarse_net){{t->along[0].size, t->directions == 2 ? t->along[1].size : 1},
+                               area,
+                               {t->size[1], 1},
+                               t->coarse};
+}
+
+int subject_read(const struct subject *s, const struct coarse_net *net, double *points,
+                 double *weights)
+{
+    for (size_t i = 0; i < net->size[0]; i++)
+        for (size_t j = 0; j < net->size[1]; j++) {
+            const double *at = net->values + i * net->step[0] + j * net->step[1];
+            const double w = s->weights ? at[3 * net->plane] / s->radius : 1.0;
             if (!(w > 0.0))
                 return 0;
             for (size_t c = 0; c < 3; c++)
-                *points++ = s->centre[c] + net[c * area] / w;
+                *points++ = s->centre[c] + at[c * net->plane] / w;
             *weights++ = w / s->scale;
         }
     return 1;
 }
 
-static void write_coarse(const struct subject *s, struct thinning *t, size_t i, size_t j,
-                         const double point[3], double weight)
+double subject_write(const struct subject *s, const double *points, const double *weights,
+                     const struct coarse_net *net)
 {
-    const size_t area = t->size[0] * t->size[1], at = i * t->size[1] + j;
-    const double w = s->weights ? weight * s->scale : 1.0;
-    for (size_t c = 0; c < 3; c++)
-        t->coarse[c * area + at] = w * (point[c] - s->centre[c]);
-    if (s->weights)
-        t->coarse[3 * area + at] = w * s->radius;
+    double square = 0.0;
+    for (size_t i = 0; i < net->size[0]; i++)
+        for (size_t j = 0; j < net->size[1]; j++, points += 3, weights++) {
+            double *at = net->values + i * net->step[0] + j * net->step[1], sum = 0.0;
+            const double w = s->weights ? *weights * s->scale : 1.0;
+            for (size_t c = 0; c < 3; c++) {
+                const double d = points[c] - s->centre[c];
+                at[c * net->plane] = w * d;
+                sum += d * d;
+            }
+            square = fmax(square, sum);
+            if (s->weights)
+                at[3 * net->plane] = w * s->radius;
+        }
+    return sqrt(square);
 }
 
 double subject_certify(const struct subject *s, struct thinning *t, const double *points,
                        const double *weights)
 {
-    const size_t size[2] = {t->along[0].size, s->directions == 2 ? t->along[1].size : 1};
-    double radius = 0.0;
-    for (size_t i = 0; i < size[0]; i++)
-        for (size_t j = 0; j < size[1]; j++) {
-            const double *p = points + 3 * (i * size[1] + j);
-            write_coarse(s, t, i, j, p, weights[i * size[1] + j]);
-            radius = fmax(radius, hypot(hypot(p[0] - s->centre[0], p[1] - s->centre[1]),
-                                        p[2] - s->centre[2]));
-        }
+    const struct coarse_net net = thinning_net(t);
+    const double radius = subject_write(s, points, weights, &net);
     thinning_difference(t);
     const size_t area = t->size[0] * t->size[1];
     double largest = 0.0;
@@ -209,18 +222,18 @@ double subject_certify(const struct subject *s, struct thinning *t, const double
     return largest + s->rounding;
 }
 
-nurbs_status simple_create(const struct subject *s, const struct thinning *t, struct simple *r)
+nurbs_status simple_create(const struct subject *s, const struct reduction along[2],
+                           struct simple *r)
 {
     memset(r, 0, sizeof *r);
     r->size[1] = 1;
     for (int d = 0; d < s->directions; d++) {
-        const struct reduction *along = &t->along[d];
-        const size_t bytes = (along->size + (size_t)along->degree + 1) * sizeof(double);
-        r->size[d] = along->size;
-        r->removed = r->removed || along->size < s->size[d];
+        const size_t bytes = (along[d].size + (size_t)along[d].degree + 1) * sizeof(double);
+        r->size[d] = along[d].size;
+        r->removed = r->removed || along[d].size < s->size[d];
         r->knots[d] = malloc(bytes);
         if (r->knots[d])
-            memcpy(r->knots[d], along->knots, bytes);
+            memcpy(r->knots[d], along[d].knots, bytes);
     }
     const size_t n = count_of(r->size);
     r->points = malloc(3 * n * sizeof(double));

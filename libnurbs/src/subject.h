@@ -16,13 +16,13 @@ struct subject {
     int directions, degree[2];
     size_t size[2], divided_size[2];
     const double *knots[2];
-    double *divided[2]; /* knots with every span in equal parts */
+    double *divided[2]; /* knots with every span in equal parts; 1 part: NULL */
     int planes;         /* 3, or 4 when rational */
     double centre[3];
     double scale;        /* 1 / smallest weight, 1 when polynomial */
     double radius;       /* rational: largest distance of a control point from the centre */
     double *net;         /* planes over the knots */
-    double *divided_net; /* planes over the divided knots */
+    double *divided_net; /* planes over the divided knots; 1 part: NULL */
     const double *points, *weights;
     double rounding; /* absolute error allowed for in the certificate */
 };
@@ -36,15 +36,27 @@ void subject_free(struct subject *s);
 /* A request to thin on the original knots or on the divided ones; coarse knots: the original. */
 struct thinning_request subject_request(const struct subject *s, int divided, double tolerance);
 
+/* Scalar planes of a coarse net, borrowed: coordinate c of point i, j at
+ * values[c * plane + i * step[0] + j * step[1]]. */
+struct coarse_net {
+    size_t size[2], plane, step[2];
+    double *values;
+};
+
 /* Control points of the coarse net as points and weights: fills points[3 * n] and weights[n], n the
  * product of the coarse sizes. Returns 0 when a weight is not positive. */
-int subject_read(const struct subject *s, const struct thinning *t, double *points,
+int subject_read(const struct subject *s, const struct coarse_net *net, double *points,
                  double *weights);
+
+/* The reverse; returns the largest distance of the points from the centre. */
+double subject_write(const struct subject *s, const double *points, const double *weights,
+                     const struct coarse_net *net);
 
 /* Bound of the distance between the original and the result with these coarse control points, over
  * the knots of `t`, which must be on the divided ones. Replaces the coarse net of `t`. */
 double subject_certify(const struct subject *s, struct thinning *t, const double *points,
                        const double *weights);
+struct coarse_net thinning_net(const struct thinning *t);
 
 /* The simpler spline: knots, points and weights; removed 0: it is the original. */
 struct simple {
@@ -54,8 +66,9 @@ struct simple {
     double bound;
 };
 
-/* Allocates the arrays and copies the coarse knots. */
-nurbs_status simple_create(const struct subject *s, const struct thinning *t, struct simple *r);
+/* Allocates the arrays and copies the coarse knots of each direction. */
+nurbs_status simple_create(const struct subject *s, const struct reduction along[2],
+                           struct simple *r);
 void simple_free(struct simple *r);
 
 /* The result and its bound (NULL: not wanted); a copy and 0 when nothing was removed. */

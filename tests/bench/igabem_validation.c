@@ -91,8 +91,9 @@ igabem_hull *dtmb5415(const char *file, double tolerance)
     nurbs_status status =
         nurbs_surface_wetted(nurbs_patches_get(patches, 0), 0.0, 1e-5 * length, &wetted);
     wetted = take(status, wetted, NULL, file);
-    status = nurbs_surface_simplify(wetted, tolerance * length, NURBS_KEEP_EDGES | NURBS_KEEP_KINKS,
-                                    &light, &bound);
+    status =
+        nurbs_surface_simplify(wetted, tolerance * length,
+                               NURBS_KEEP_EDGES | NURBS_KEEP_KINKS | NURBS_THRIFTY, &light, &bound);
     igabem_hull *hull = hull_of(take(status, light, wetted, file));
     nurbs_patches_free(patches);
     if (igabem_hull_set_length(hull, length))

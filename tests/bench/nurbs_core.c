@@ -325,13 +325,14 @@ static void bench_changes(int repetitions)
 
 static void bench_simplify(const char *name, nurbs_surface *s, double tolerance, int repetitions)
 {
-    double ours = -1.0, theirs = -1.0, bound = 0.0;
-    nurbs_surface *simple = NULL;
+    double ours = -1.0, theirs = -1.0, thrifty = -1.0, bound = 0.0;
+    nurbs_surface *simple = NULL, *light = NULL;
     size_t peer_size[2] = {0, 0};
     for (int r = 0; r < repetitions; r++) {
         nurbs_surface_free(simple);
         BEST(ours, must(nurbs_surface_simplify(s, tolerance, 0, &simple, &bound)));
     }
+    BEST(thrifty, must(nurbs_surface_simplify(s, tolerance, NURBS_THRIFTY, &light, NULL)));
 #ifdef HAVE_SISL
     SISLSurf *peer = peer_surface(s);
     for (int r = 0; r < repetitions; r++) {
@@ -349,14 +350,19 @@ static void bench_simplify(const char *name, nurbs_surface *s, double tolerance,
     }
     freeSurf(peer);
 #endif
-    char note[160];
-    snprintf(note, sizeof note, "%zux%zu -> %zux%zu (bound %.3g), peer %zux%zu: %.2f of its points",
-             nurbs_surface_size(s, 0), nurbs_surface_size(s, 1), nurbs_surface_size(simple, 0),
-             nurbs_surface_size(simple, 1), bound, peer_size[0], peer_size[1],
-             (double)(nurbs_surface_size(simple, 0) * nurbs_surface_size(simple, 1)) /
-                 (double)(peer_size[0] * peer_size[1]));
+    char note[200];
+    snprintf(
+        note, sizeof note,
+        "%zux%zu -> %zux%zu (bound %.3g), peer %zux%zu: %.2f of its points; thrifty %zux%zu in "
+        "%.3g ms",
+        nurbs_surface_size(s, 0), nurbs_surface_size(s, 1), nurbs_surface_size(simple, 0),
+        nurbs_surface_size(simple, 1), bound, peer_size[0], peer_size[1],
+        (double)(nurbs_surface_size(simple, 0) * nurbs_surface_size(simple, 1)) /
+            (double)(peer_size[0] * peer_size[1]),
+        nurbs_surface_size(light, 0), nurbs_surface_size(light, 1), thrifty * 1e3);
     report(name, ours * 1e3, theirs * 1e3, "ms", note);
     nurbs_surface_free(simple);
+    nurbs_surface_free(light);
 }
 
 static void bench_simplifications(int repetitions)

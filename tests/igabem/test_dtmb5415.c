@@ -17,10 +17,10 @@ static igabem_hull *wetted_hull(double simplify)
     CU_ASSERT_EQUAL_FATAL(nurbs_patches_read(EXAMPLES_DIR "/hulls/dtmb5415.json", &file), NURBS_OK);
     CU_ASSERT_EQUAL_FATAL(
         nurbs_surface_wetted(nurbs_patches_get(file, 0), 0.0, 1e-5 * length, &wetted), NURBS_OK);
-    CU_ASSERT_EQUAL_FATAL(nurbs_surface_simplify(wetted, simplify * length,
-                                                 NURBS_KEEP_EDGES | NURBS_KEEP_KINKS, &light,
-                                                 &bound),
-                          NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(
+        nurbs_surface_simplify(wetted, simplify * length,
+                               NURBS_KEEP_EDGES | NURBS_KEEP_KINKS | NURBS_THRIFTY, &light, &bound),
+        NURBS_OK);
     CU_ASSERT_EQUAL_FATAL(
         igabem_hull_create((const nurbs_surface *const *)&light, 1, IGABEM_SYMMETRIC, &hull),
         IGABEM_OK);

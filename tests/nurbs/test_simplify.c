@@ -121,12 +121,20 @@ static void test_reduction_against_a_peer(void)
             nurbs_curve_free(result);
         } else if (reference_is(c, "reduce_surface")) {
             nurbs_surface *surface = reference_surface(c, c, 0), *result;
-            CU_ASSERT_EQUAL_FATAL(nurbs_surface_simplify(surface, tolerance, 0, &result, &bound),
-                                  NURBS_OK);
-            CU_ASSERT(sampled_surface(surface, result) <= bound);
-            count = nurbs_surface_size(result, 0) * nurbs_surface_size(result, 1);
+            size_t counts[2];
+            for (unsigned thrifty = 0; thrifty < 2; thrifty++) {
+                CU_ASSERT_EQUAL_FATAL(nurbs_surface_simplify(surface, tolerance,
+                                                             thrifty ? NURBS_THRIFTY : 0, &result,
+                                                             &bound),
+                                      NURBS_OK);
+                CU_ASSERT(sampled_surface(surface, result) <= bound);
+                CU_ASSERT(bound <= tolerance);
+                counts[thrifty] = nurbs_surface_size(result, 0) * nurbs_surface_size(result, 1);
+                nurbs_surface_free(result);
+            }
             nurbs_surface_free(surface);
-            nurbs_surface_free(result);
+            CU_ASSERT(counts[1] <= counts[0]);
+            count = counts[0];
         } else {
             continue;
         }
@@ -213,13 +221,18 @@ static void test_bound_is_certified(void)
                               NURBS_OK);
         for (int t = 0; t < 3; t++) {
             const double tolerance = (double[]){3e-3, 1e-2, 5e-2}[t];
-            CU_ASSERT_EQUAL_FATAL(nurbs_surface_simplify(s, tolerance, 0, &simple, &bound),
-                                  NURBS_OK);
-            CU_ASSERT(bound <= tolerance);
-            CU_ASSERT(sampled_surface(s, simple) <= bound);
-            if (t == 2)
-                CU_ASSERT(nurbs_surface_size(simple, 0) * nurbs_surface_size(simple, 1) < n / 3);
-            nurbs_surface_free(simple);
+            for (unsigned thrifty = 0; thrifty < 2; thrifty++) {
+                CU_ASSERT_EQUAL_FATAL(nurbs_surface_simplify(s, tolerance,
+                                                             thrifty ? NURBS_THRIFTY : 0, &simple,
+                                                             &bound),
+                                      NURBS_OK);
+                CU_ASSERT(bound <= tolerance);
+                CU_ASSERT(sampled_surface(s, simple) <= bound);
+                if (t == 2)
+                    CU_ASSERT(nurbs_surface_size(simple, 0) * nurbs_surface_size(simple, 1) <
+                              n / 3);
+                nurbs_surface_free(simple);
+            }
         }
         free(points);
         free(weights);
@@ -263,11 +276,13 @@ static nurbs_surface *half_hull(int kink)
 static void test_edges_stay(void)
 {
     nurbs_surface *hull = half_hull(0), *simple;
-    for (int t = 0; t < 4; t++) {
+    for (int k = 0; k < 8; k++) {
+        const int t = k / 2;
+        const unsigned flags = NURBS_KEEP_EDGES | (k % 2 ? NURBS_THRIFTY : 0);
         const double tolerance = (double[]){1e-5, 1e-4, 1e-3, 1e-2}[t];
         double bound;
-        CU_ASSERT_EQUAL_FATAL(
-            nurbs_surface_simplify(hull, tolerance, NURBS_KEEP_EDGES, &simple, &bound), NURBS_OK);
+        CU_ASSERT_EQUAL_FATAL(nurbs_surface_simplify(hull, tolerance, flags, &simple, &bound),
+                              NURBS_OK);
         CU_ASSERT(bound <= tolerance);
         CU_ASSERT(sampled_surface(hull, simple) <= bound);
         const size_t nu = nurbs_surface_size(simple, 0), nv = nurbs_surface_size(simple, 1);
@@ -297,15 +312,17 @@ static void test_kinks_stay(void)
     nurbs_surface *hull = half_hull(1), *simple;
     const double kink = nurbs_surface_knots(hull, 0)[31];
     double bound;
-    CU_ASSERT_EQUAL_FATAL(
-        nurbs_surface_simplify(hull, 5e-2, NURBS_KEEP_KINKS | NURBS_KEEP_EDGES, &simple, &bound),
-        NURBS_OK);
-    int copies = 0;
-    for (size_t k = 0; k < nurbs_surface_size(simple, 0) + 4; k++)
-        copies += nurbs_surface_knots(simple, 0)[k] == kink;
-    CU_ASSERT_EQUAL(copies, 3);
-    CU_ASSERT(nurbs_surface_size(simple, 0) < 20);
-    nurbs_surface_free(simple);
+    for (unsigned thrifty = 0; thrifty < 2; thrifty++) {
+        const unsigned flags = NURBS_KEEP_KINKS | NURBS_KEEP_EDGES | (thrifty ? NURBS_THRIFTY : 0);
+        CU_ASSERT_EQUAL_FATAL(nurbs_surface_simplify(hull, 5e-2, flags, &simple, &bound), NURBS_OK);
+        int copies = 0;
+        for (size_t k = 0; k < nurbs_surface_size(simple, 0) + 4; k++)
+            copies += nurbs_surface_knots(simple, 0)[k] == kink;
+        CU_ASSERT_EQUAL(copies, 3);
+        CU_ASSERT(nurbs_surface_size(simple, 0) < 20);
+        CU_ASSERT(bound <= 5e-2);
+        nurbs_surface_free(simple);
+    }
     nurbs_surface_free(hull);
 }
 

@@ -10,8 +10,8 @@ static int simplify_all(const nurbs_patches *patches, double tolerance, const ch
     for (size_t k = 0; k < nurbs_patches_count(patches) && status == NURBS_OK; k++) {
         nurbs_surface *surface = NULL;
         double bound = 0;
-        status = nurbs_surface_simplify(nurbs_patches_get(patches, k), tolerance, NURBS_KEEP_EDGES,
-                                        &surface, &bound);
+        status = nurbs_surface_simplify(nurbs_patches_get(patches, k), tolerance,
+                                        NURBS_KEEP_EDGES | NURBS_THRIFTY, &surface, &bound);
         if (status == NURBS_OK)
             status = nurbs_patches_add(light, surface);
         if (status == NURBS_OK) {

@@ -128,8 +128,8 @@ static nurbs_status lighten(const nurbs_surface *surface, const nurbs_grid *grid
                             nurbs_surface **light)
 {
     nurbs_surface *raised;
-    nurbs_status status = nurbs_surface_simplify(surface, tolerance,
-                                                 NURBS_KEEP_EDGES | NURBS_KEEP_KINKS, light, NULL);
+    nurbs_status status = nurbs_surface_simplify(
+        surface, tolerance, NURBS_KEEP_EDGES | NURBS_KEEP_KINKS | NURBS_THRIFTY, light, NULL);
     if (status != NURBS_OK || !is_half_hull(grid))
         return status;
     status = nurbs_surface_raise_side(*light, &raised, NULL);

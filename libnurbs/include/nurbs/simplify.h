@@ -19,7 +19,9 @@ enum {
         1, /**< the four boundary curves keep their planes: an edge that lies in y = 0 or
                 z = 0 (any coordinate plane) stays in it exactly, and control points that lie on
                 one side of that plane stay there; corners stay exactly in any case */
-    NURBS_KEEP_KINKS = 2 /**< knots of multiplicity >= degree are not touched */
+    NURBS_KEEP_KINKS = 2, /**< knots of multiplicity >= degree are not touched */
+    NURBS_THRIFTY = 4 /**< one knot at a time with the largest difference balanced: 10 to 60 times
+                           as long for 0.5 to 0.9 of the control points */
 };
 
 /** Removes as many knots as the tolerance allows.
