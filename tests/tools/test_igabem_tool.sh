@@ -95,10 +95,20 @@ check "hull file is whole" $?
 check "spectrum file" $?
 tail -1 "$work/p.svg" | grep -q "</svg>"
 check "plot is whole" $?
-"$igabem" solve "$hulls/spheroid.json" --fr 0.5 --elements 8,5 --ladder 3 > "$work/out"
+"$igabem" solve "$hulls/spheroid.json" --fr 0.5 --elements 8,5 --ladder 3 --survey > "$work/out"
 check "ladder runs" $?
 [ "$(grep -c '%' "$work/out")" -ge 2 ]
 check "ladder prints its changes" $?
+grep -q "wave cut" "$work/out" && grep -q "shares of the fore" "$work/out"
+check "survey prints wave cut and shares" $?
+"$igabem" solve "$hulls/dtmb5415.json" --fr 0.35 --elements 16,6 --free-to-trim --json > "$work/json"
+check "free to sink and trim" $?
+# What floats deeper by s has gained the volume s A, A = 3.4003 m^2, V = 0.55349 m^3 at rest.
+awk -F'[:,]' '/"volume"/ { v = $2 } /"sinkage"/ { s = $2 }
+  END { exit !(s > 0.005 && (v - 0.55349) / (3.4003 * s) > 0.97 && (v - 0.55349) / (3.4003 * s) < 1.05) }' "$work/json"
+check "volume gained by sinkage" $?
+expect_code 2 "one Froude number" "$igabem" solve "$hulls/dtmb5415.json" --fr 0.3,0.35 --free-to-trim
+expect_code 1 "" "$igabem" solve "$hulls/wigley.json" --fr 0.3 --elements 12,4 --free-to-trim
 expect_code 1 "expected a name" "$igabem" solve "$hulls/wigley.json" --fr 0.3 --elements 8,3 --waves "$work/w.txt"
 [ ! -e "$work/w.txt" ]
 check "nothing half written" $?

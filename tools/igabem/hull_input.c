@@ -12,7 +12,7 @@ static const double CLEARANCE = 1e-6;        /* of the length: above this a patc
 
 void hull_request_init(struct hull_request *request, const char *path)
 {
-    *request = (struct hull_request){path, 0.0, NAN, NAN, NAN, false};
+    *request = (struct hull_request){.path = path, .draft = NAN, .simplify = NAN, .length = NAN};
 }
 
 void hull_input_free(struct hull_input *input)
@@ -56,6 +56,32 @@ static int file_box(const nurbs_patches *patches, double lower[3], double upper[
         if (!sample_box(nurbs_patches_get(patches, p), lower, upper))
             return 0;
     return 1;
+}
+
+/* The file's patches sunk by request->sinkage and turned bow up by request->trim about the
+ * transverse axis at x = pivot, z = level. */
+static nurbs_status place(nurbs_patches **patches, const struct hull_request *request, double level)
+{
+    double c = cos(request->trim), s = sin(request->trim), x = request->pivot;
+    const double turn[9] = {c, 0, -s, 0, 1, 0, s, 0, c};
+    const double shift[3] = {x - c * x + s * level, 0.0,
+                             level - s * x - c * level - request->sinkage};
+    nurbs_patches *placed = NULL;
+    nurbs_status status = nurbs_patches_create(&placed);
+    for (size_t p = 0; !status && p < nurbs_patches_count(*patches); p++) {
+        nurbs_surface *moved = NULL;
+        status = nurbs_surface_transform(nurbs_patches_get(*patches, p), turn, shift, &moved);
+        if (!status)
+            status = nurbs_patches_add(placed, moved);
+        nurbs_surface_free(moved);
+    }
+    if (status) {
+        nurbs_patches_free(placed);
+        return status;
+    }
+    nurbs_patches_free(*patches);
+    *patches = placed;
+    return NURBS_OK;
 }
 
 /* One patch of the file below the level, moved so that the water lies at z = 0; *wetted NULL when
@@ -223,6 +249,9 @@ int hull_input_read(const struct hull_request *request, struct hull_input *input
         input->level = fmax(request->level, upper[2] + extent);
     else if (!isnan(request->draft))
         code = level_of_draft(file, request, extent, &input->level);
+    if (code == CLI_OK && (request->sinkage != 0.0 || request->trim != 0.0) &&
+        place(&file, request, input->level))
+        code = cli_fail("%s: %s", request->path, nurbs_last_error());
     if (code == CLI_OK)
         code = prepare(file, request, extent, input);
     if (code == CLI_OK)

@@ -14,7 +14,9 @@ struct hull_request {
     double draft;    /* keel draft amidships that sets the level instead; NAN: not given */
     double simplify; /* tolerance of knot removal over the length; 0: none; NAN: 1e-4 if cut */
     double length;   /* reference length, m; NAN: the file's, else the waterline's */
-    bool unbounded;  /* there is no water surface: the body is moved below z = 0 and not cut */
+    double sinkage, trim, pivot; /* attitude: m, positive down; radians, positive bow up, about
+                                    x = pivot in the still water */
+    bool unbounded; /* there is no water surface: the body is moved below z = 0 and not cut */
 };
 
 struct hull_input {

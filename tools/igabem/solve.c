@@ -3,6 +3,7 @@
 
 #include "cli.h"
 #include "commands.h"
+#include "equilibrium.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -136,6 +137,23 @@ static igabem_status survey(const struct solve_run *run, const igabem_solution *
     return igabem_wave_cut(solution, NAN, &result->cw_cut);
 }
 
+/* Coefficients on the wetted area at rest, and the attitude that the hull was solved in. */
+static void refer_to_rest(const struct solve_run *run, struct solve_result *result)
+{
+    igabem_forces *forces = &result->forces;
+    double *coefficients[] = {&forces->cw,
+                              &forces->cw_pressure,
+                              &forces->cw_pressure_linear,
+                              &forces->cw_cutoff_lower,
+                              &forces->cw_cutoff_upper,
+                              &result->cw_cut};
+    for (size_t k = 0; k < sizeof coefficients / sizeof *coefficients; k++)
+        *coefficients[k] *= forces->wetted_area / run->area_at_rest;
+    forces->wetted_area = run->area_at_rest;
+    forces->sinkage = run->request->hull.sinkage;
+    forces->trim = run->request->hull.trim;
+}
+
 static int solve_level(struct solve_run *run, size_t level, igabem_options *options,
                        igabem_solution **solutions, struct cli_progress *progress)
 {
@@ -154,6 +172,8 @@ static int solve_level(struct solve_run *run, size_t level, igabem_options *opti
         if (!status && run->request->survey && level + 1 == run->levels &&
             result->options.kernel == IGABEM_KERNEL_KELVIN)
             status = survey(run, solutions[c], result);
+        if (run->request->free_to_trim)
+            refer_to_rest(run, result);
     }
     int code = CLI_OK;
     if (status)
@@ -200,6 +220,12 @@ int command_solve(int argc, char **argv)
     }
     struct solve_run run = {.request = &request, .input = &input, .levels = (size_t)request.ladder};
     code = hull_input_read(&request.hull, &input);
+    if (code == CLI_OK) {
+        igabem_hull_get_info(input.hull, &run.info);
+        run.area_at_rest = run.info.hydrostatics.wetted_area;
+        if (request.free_to_trim)
+            code = equilibrium_find(&request, &input);
+    }
     if (code == CLI_OK) {
         igabem_formulation list[6];
         igabem_hull_get_info(input.hull, &run.info);

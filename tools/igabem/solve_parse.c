@@ -25,6 +25,9 @@ static const char help[] =
     "  --ladder N          N levels from --refine on, each half as fine again: orders and\n"
     "                      Richardson's value\n"
     "  --sensitivity       also C_w at 0.85 and 1.15 of the cut-off angle\n"
+    "  --free-to-trim      at the sinkage and trim of equilibrium (one Froude number); the file "
+    "must\n"
+    "                      reach above the water\n"
     "  --survey            also C_w by a wave cut, and the shares of bow, middle and stern\n"
     "\n"
     "Formulation (defaults by rule from the hull; docs/theory.md):\n"
@@ -70,6 +73,7 @@ enum option_value {
     OPT_TOLERANCE,
     OPT_LADDER,
     OPT_SENSITIVITY,
+    OPT_FREE_TO_TRIM,
     OPT_SURVEY,
     OPT_CUTOFF,
     OPT_CUTOFF_FACTOR,
@@ -109,6 +113,7 @@ static const struct option options[] = {
     {"tolerance", required_argument, NULL, OPT_TOLERANCE},
     {"ladder", required_argument, NULL, OPT_LADDER},
     {"sensitivity", no_argument, NULL, OPT_SENSITIVITY},
+    {"free-to-trim", no_argument, NULL, OPT_FREE_TO_TRIM},
     {"survey", no_argument, NULL, OPT_SURVEY},
     {"cutoff", required_argument, NULL, OPT_CUTOFF},
     {"cutoff-factor", required_argument, NULL, OPT_CUTOFF_FACTOR},
@@ -288,6 +293,9 @@ static int take(int opt, struct solve_request *r, bool *done)
     case OPT_SENSITIVITY:
         o->sensitivity = 1;
         return CLI_OK;
+    case OPT_FREE_TO_TRIM:
+        r->free_to_trim = true;
+        return CLI_OK;
     case OPT_SURVEY:
         r->survey = true;
         return CLI_OK;
@@ -375,6 +383,8 @@ static int complete(int argc, char **argv, struct solve_request *r)
         return cli_usage("--formulation all compares wave resistances, expected --kernel kelvin");
     if (r->waves && r->options.kernel != IGABEM_KERNEL_KELVIN)
         return cli_usage("--waves needs a free surface, expected --kernel kelvin");
+    if (r->free_to_trim && (r->options.kernel != IGABEM_KERNEL_KELVIN || r->n_fr != 1))
+        return cli_usage("--free-to-trim expects --kernel kelvin and one Froude number");
     r->hull.unbounded = r->options.kernel == IGABEM_KERNEL_RANKINE;
     if (r->n_fr == 0) { /* other kernels: one result without a Froude number */
         r->fr = malloc(sizeof *r->fr);
