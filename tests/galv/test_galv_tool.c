@@ -149,6 +149,53 @@ static void test_there_and_back(void)
     json_decref(again);
 }
 
+/* 500 samples and 300 more from the same stream against 800 at once; then samples of other origin.
+ */
+static void test_extend(void)
+{
+    write_inputs();
+    json_t *before = run_json(reduce);
+    json_t *grown = run_json("extend model.h5 --random 300 --variance 0.9999 -o grown.h5 --json");
+    json_t *whole = run_json("reduce --hull hull.csv --shape shape.yaml --random 800 --seed 3 "
+                             "--variance 0.9999 --json");
+    CU_ASSERT_EQUAL(number(grown, "samples"), 800);
+    CU_ASSERT_EQUAL(number(grown, "samples_before"), 500);
+    CU_ASSERT_EQUAL(number(grown, "modes"), number(whole, "modes"));
+    CHECK_RELATIVE(number(grown, "trace"), number(whole, "trace"), 1e-12);
+    CHECK_CLOSE(number(grown, "trace_before"), number(before, "trace"), 0);
+    json_t *values = json_object_get(grown, "eigenvalues");
+    json_t *exact = json_object_get(whole, "eigenvalues");
+    for (size_t k = 0; k < (size_t)number(grown, "modes"); k++) {
+        double lost = json_number_value(json_array_get(exact, k)) -
+                      json_number_value(json_array_get(values, k));
+        CU_ASSERT_TRUE(lost >= -1e-12 * number(whole, "trace"));
+        CU_ASSERT_TRUE(lost <= number(grown, "truncation") + 1e-12 * number(whole, "trace"));
+    }
+    CU_ASSERT_TRUE(number(grown, "subspace_angle") > 0);
+    json_t *info = run_json("info grown.h5 --json");
+    CHECK_CLOSE(number(info, "truncation"), number(grown, "truncation"), 0);
+    CU_ASSERT_EQUAL(number(info, "seed"), 3);
+    json_decref(info);
+    /* Another seed, then a file: no longer one stream. */
+    expect("extend grown.h5 --random 50 --seed 4 -o mixed.h5", 0, NULL);
+    info = run_json("info mixed.h5 --json");
+    CU_ASSERT_TRUE(json_is_null(json_object_get(info, "seed")));
+    CU_ASSERT_EQUAL(number(info, "samples"), 850);
+    scratch_write("more.csv", "x1,x2,x3,x4\n0.01,0,0,0\n0,0.01,0.001,0\n");
+    json_t *mixed = run_json("extend mixed.h5 --samples more.csv --modes 2 --json");
+    CU_ASSERT_EQUAL(number(mixed, "samples"), 852);
+    CU_ASSERT_EQUAL(number(mixed, "modes"), 2);
+    expect("extend model.h5", 2, "--random");
+    expect("extend model.h5 --random 5 --samples more.csv", 2, "--random");
+    expect("extend model.h5 --random 5 --variance 0", 2, "--variance");
+    expect("info model.h5 --random 5", 2, "no such option");
+    json_decref(before);
+    json_decref(grown);
+    json_decref(whole);
+    json_decref(info);
+    json_decref(mixed);
+}
+
 static void test_moments_and_lattice(void)
 {
     write_inputs();
@@ -204,7 +251,7 @@ static void test_usage(void)
 {
     write_inputs();
     static const char *const commands[] = {"reduce",  "info", "project", "reconstruct",
-                                           "backmap", "plot", "animate"};
+                                           "backmap", "plot", "animate", "extend"};
     for (size_t i = 0; i < sizeof commands / sizeof commands[0]; i++) {
         char arguments[64];
         snprintf(arguments, sizeof arguments, "%s --help", commands[i]);
@@ -290,6 +337,7 @@ static const struct check_case cases[] = {
     {"reduce from a file of samples", test_reduce_from_samples},
     {"model files keep every bit", test_model_round_trip},
     {"there and back", test_there_and_back},
+    {"a model grows", test_extend},
     {"moments and lattices", test_moments_and_lattice},
     {"drawings", test_drawings},
     {"usage", test_usage},

@@ -3,6 +3,7 @@
 #define GALV_TOOL_COMMANDS_H
 
 int command_reduce(int argc, char **argv);
+int command_extend(int argc, char **argv);
 int command_info(int argc, char **argv);
 int command_project(int argc, char **argv);
 int command_reconstruct(int argc, char **argv);

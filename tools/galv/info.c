@@ -35,7 +35,8 @@ static int print_json(const struct model_file *file)
     if (galv_latent_ellipsoid(file->model, 0.95, &radius))
         return cli_fail("%s", galv_last_error());
     json_t *root = json_pack(
-        "{s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:b,s:s,s:s,s:s}",
+        "{s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:b,s:s,s:s,"
+        "s:s}",
         "samples", whole(d.samples), "elements", whole(d.points), "coordinates",
         whole(d.coordinates), "active", whole(d.active), "parameters", whole(d.parameters), "modes",
         whole(d.modes), "retained", number(d.retained), "retained_geometry",
@@ -43,8 +44,9 @@ static int print_json(const struct model_file *file)
         "subspace_angle", number(d.confidence.angle), "trace", number(d.trace), "eigenvalues",
         array(d.spectrum, d.eigenvalues), "mse", array(d.spectrum, d.mse), "latent_lower",
         array(d.modes, d.lower), "latent_upper", array(d.modes, d.upper), "radius95",
-        number(radius), "sections", whole(file->sections), "centred", d.centred, "method",
-        method_name(d.method), "hull", file->hull, "shape",
+        number(radius), "truncation", number(d.truncation), "seed",
+        file->uniform ? whole(file->seed) : json_null(), "sections", whole(file->sections),
+        "centred", d.centred, "method", method_name(d.method), "hull", file->hull, "shape",
         file->shape.kind == SHAPE_SINES ? "sines" : "lattice");
     if (!root)
         return cli_fail("out of memory");
@@ -76,6 +78,14 @@ static int print_text(const struct model_file *file)
     if (file->moments)
         printf(" with moments up to order %zu, %.3f %% of the points' variance", file->moment_order,
                100 * d.retained_geometry);
+    if (isfinite(d.confidence.retained_error))
+        printf("\nstandard error of the retained share %.3f %%, greatest angle to the modes of %s: "
+               "%.2f degrees",
+               100 * d.confidence.retained_error,
+               d.truncation > 0 ? "the model extended" : "half the samples",
+               d.confidence.angle * 180 / 3.14159265358979323846);
+    if (d.truncation > 0)
+        printf("\neigenvalues may be too low by up to %.2e m^2", d.truncation);
     if (!galv_latent_ellipsoid(file->model, 0.95, &radius))
         printf("\n95 %% of the samples lie within %.3f standard deviations", radius);
     printf("\n%4s %13s %11s %13s %13s %13s %13s\n", "mode", "eigenvalue", "retained %", "lower",

@@ -10,6 +10,7 @@ static const char help[] =
     "Latent spaces of shape modifications.\n"
     "\n"
     "  reduce       sample a modification on a hull and find its latent space\n"
+    "  extend       add samples to a model\n"
     "  info         say what a model file holds\n"
     "  project      latent coordinates of hulls or of parameters\n"
     "  reconstruct  the hull of a latent point\n"
@@ -27,6 +28,7 @@ static const struct {
     int (*run)(int, char **);
 } commands[] = {
     {"reduce", "galv reduce", command_reduce},
+    {"extend", "galv extend", command_extend},
     {"info", "galv info", command_info},
     {"project", "galv project", command_project},
     {"reconstruct", "galv reconstruct", command_reconstruct},

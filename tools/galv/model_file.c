@@ -99,7 +99,7 @@ static bool write_all(hid_t h5, const struct model_file *file)
               write_shape(shape, &file->shape) && h5_write_count(h5, "sections", file->sections) &&
               h5_write_count(h5, "girth", file->girth) && h5_write_text(h5, "hull", file->hull) &&
               h5_write_count(h5, "uniform", file->uniform) &&
-              h5_write_count(h5, "seed", file->seed) &&
+              h5_write_count(h5, "seed", file->seed) && h5_write_count(h5, "drawn", file->drawn) &&
               h5_write_count(h5, "moments", file->moments) &&
               h5_write_count(h5, "moment_order", file->moment_order);
     if (shape >= 0)
@@ -340,6 +340,9 @@ static bool read_all(struct reader *r, struct model_file *file)
         r->wrong = "hull";
     if (r->wrong || !read_model(r, &file->model))
         return false;
+    /* Files written before models could grow have no count of their own. */
+    if (!h5_read_count(r->h5, "drawn", &file->drawn))
+        file->drawn = file->uniform ? galv_model_samples(file->model) : 0;
     size_t points = galv_model_points(file->model);
     if (file->sections > points || file->girth > points ||
         (file->girth && file->sections * file->girth != points) || file->moment_order > 8) {

@@ -15,6 +15,7 @@ struct model_file {
     size_t sections, girth; /* of the grid, 0 when the points are no grid */
     bool uniform;           /* samples from the stream of `seed` (from 0 on) or from a file */
     size_t seed;
+    size_t drawn; /* samples from the start of the stream of `seed` that the model has */
     bool moments; /* moments of the hull up to moment_order are appended */
     size_t moment_order;
     char hull[512]; /* where the parent came from */

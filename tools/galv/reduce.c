@@ -150,6 +150,7 @@ static bool write_model(const struct reduce_options *options, const struct reduc
                               .girth = r->hull.girth,
                               .uniform = options->random > 0,
                               .seed = options->seed,
+                              .drawn = options->random,
                               .moments = options->moments,
                               .moment_order = options->moment_order};
     snprintf(file.hull, sizeof file.hull, "%s", options->hull);

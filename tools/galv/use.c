@@ -3,9 +3,25 @@
 #include "cli.h"
 
 #include <getopt.h>
+#include <stdint.h>
 #include <string.h>
 
-enum { HULL = 256, PARAMETERS, LATENT, MODES, FRAMES, SCALE, THREADS, JSON, HELP, VERSION };
+enum {
+    HULL = 256,
+    PARAMETERS,
+    LATENT,
+    MODES,
+    FRAMES,
+    SCALE,
+    RANDOM,
+    SEED,
+    SAMPLES,
+    VARIANCE,
+    THREADS,
+    JSON,
+    HELP,
+    VERSION
+};
 
 static const struct option table[] = {
     {"hull", required_argument, NULL, HULL},
@@ -15,6 +31,10 @@ static const struct option table[] = {
     {"modes", required_argument, NULL, MODES},
     {"frames", required_argument, NULL, FRAMES},
     {"scale", required_argument, NULL, SCALE},
+    {"random", required_argument, NULL, RANDOM},
+    {"seed", required_argument, NULL, SEED},
+    {"samples", required_argument, NULL, SAMPLES},
+    {"variance", required_argument, NULL, VARIANCE},
     {"threads", required_argument, NULL, THREADS},
     {"json", no_argument, NULL, JSON},
     {"help", no_argument, NULL, HELP},
@@ -38,6 +58,11 @@ static unsigned option_bit(int code)
     case FRAMES:
     case SCALE:
         return USE_FRAMES;
+    case RANDOM:
+    case SEED:
+    case SAMPLES:
+    case VARIANCE:
+        return USE_SAMPLES;
     default:
         return 0;
     }
@@ -50,13 +75,25 @@ static int set_number(int code, struct use *use)
         return cli_parse_double(optarg, &use->scale) && use->scale > 0
                    ? -1
                    : cli_usage("--scale '%s': expected a number above 0", optarg);
-    size_t most = code == THREADS ? 4096 : 1000;
-    if (!cli_parse_size(optarg, &value) || value < 1 || value > most)
-        return cli_usage("'%s': expected a whole number from 1 to %zu", optarg, most);
+    if (code == VARIANCE)
+        return cli_parse_double(optarg, &use->variance) && use->variance > 0 && use->variance <= 1
+                   ? -1
+                   : cli_usage("--variance '%s': expected a number above 0, at most 1", optarg);
+    size_t least = code == SEED ? 0 : 1;
+    size_t most = code == SEED      ? SIZE_MAX
+                  : code == RANDOM  ? 1000000000
+                  : code == THREADS ? 4096
+                                    : 1000;
+    if (!cli_parse_size(optarg, &value) || value < least || value > most)
+        return cli_usage("'%s': expected a whole number from %zu to %zu", optarg, least, most);
     if (code == THREADS)
         cli_set_threads((int)value);
     else
-        *(code == MODES ? &use->modes : &use->frames) = value;
+        *(code == MODES    ? &use->modes
+          : code == FRAMES ? &use->frames
+          : code == SEED   ? &use->seed
+                           : &use->random) = value;
+    use->seed_given = use->seed_given || code == SEED;
     return -1;
 }
 
@@ -74,6 +111,9 @@ static int set_option(int code, const char *help, struct use *use)
         return -1;
     case 'o':
         use->output = optarg;
+        return -1;
+    case SAMPLES:
+        use->samples = optarg;
         return -1;
     case JSON:
         use->json = true;

@@ -9,10 +9,10 @@
 
 struct use {
     struct model_file file;
-    const char *hull, *parameters, *latent, *output;
-    size_t modes, frames;
-    double scale;
-    bool json;
+    const char *hull, *parameters, *latent, *output, *samples;
+    size_t modes, frames, random, seed;
+    double scale, variance; /* variance 0: not given */
+    bool json, seed_given;
 };
 
 /* Which options a command takes. */
@@ -23,6 +23,7 @@ enum use_options {
     USE_OUTPUT = 8,
     USE_MODES = 16,
     USE_FRAMES = 32,
+    USE_SAMPLES = 64, /* --random, --seed, --samples, --variance */
 };
 
 /* Parses and reads the model. Returns -1 to go on (then use_free()), else the exit code. */

@@ -1,0 +1,149 @@
+#include "cli.h"
+#include "commands.h"
+#include "latent_rows.h"
+#include "use.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+
+static const char help[] =
+    "usage: galv extend MODEL (--random N [--seed S] | --samples FILE) [OPTION]...\n"
+    "\n"
+    "Adds samples to a model without evaluating the old ones again, and says how much that "
+    "changes\n"
+    "the spectrum and turns the modes. The old samples enter through the eigenpairs the model "
+    "keeps;\n"
+    "what that can have cost an eigenvalue is printed.\n"
+    "\n"
+    "  --random N         N more uniform draws within the bounds of the modification\n"
+    "  --seed S           of the stream to draw from (default: the model's); the stream the model "
+    "was\n"
+    "                     last drawn from is continued, any other starts at its first sample\n"
+    "  --samples FILE     parameter vectors instead, CSV with one column per parameter\n"
+    "  --variance V       share of the variance to retain, in (0, 1] (default 0.95)\n"
+    "  --modes M          keep M modes instead\n"
+    "  -o, --output FILE  write the extended model, HDF5\n"
+    "  --threads N        threads (default: as the environment says)\n"
+    "  --json             print one JSON object\n";
+
+/* The new samples, and in *drawn how many the model then has of the stream `seed`. */
+static galv_sampling choose_sampling(const struct use *use, const struct rows *x, size_t *seed,
+                                     size_t *drawn)
+{
+    const struct model_file *file = &use->file;
+    *seed = file->seed;
+    *drawn = file->drawn;
+    if (use->samples)
+        return galv_samples(x->count, x->values);
+    if (use->seed_given && use->seed != file->seed) {
+        *seed = use->seed;
+        *drawn = 0;
+    }
+    galv_sampling sampling = galv_uniform(use->random, *seed);
+    sampling.first = *drawn;
+    *drawn += use->random;
+    return sampling;
+}
+
+static bool extend(const struct use *use, galv_sampling sampling, galv_model **grown)
+{
+    const struct model_file *file = &use->file;
+    galv_shape *shape = NULL;
+    galv_moment_set set;
+    galv_extra extra = model_file_extra(file, &set);
+    galv_options options;
+    galv_options_init(&options);
+    options.extra = extra.count ? &extra : NULL;
+    options.modes = use->modes;
+    if (use->variance > 0)
+        options.variance = use->variance;
+    bool ok = !shape_definition_create(&file->shape, &shape) &&
+              !galv_extend(file->model, shape, sampling, &options, grown);
+    if (!ok)
+        cli_fail("%s", galv_last_error());
+    galv_shape_free(shape);
+    return ok;
+}
+
+static json_t *array(size_t n, const double *values)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < n; i++)
+        json_array_append_new(list, json_real(values[i]));
+    return list;
+}
+
+static int print_json(const galv_model_data *old, const galv_model_data *new)
+{
+    json_t *root = json_pack("{s:I,s:I,s:I,s:f,s:f,s:f,s:f,s:f,s:f,s:o,s:o}", "samples",
+                             (json_int_t) new->samples, "samples_before", (json_int_t)old->samples,
+                             "modes", (json_int_t) new->modes, "retained", new->retained,
+                             "retained_before", old->retained, "trace", new->trace, "trace_before",
+                             old->trace, "subspace_angle", new->confidence.angle, "truncation",
+                             new->truncation, "eigenvalues", array(new->spectrum, new->eigenvalues),
+                             "eigenvalues_before", array(old->spectrum, old->eigenvalues));
+    int failed = !root || json_dumpf(root, stdout, JSON_REAL_PRECISION(17) | JSON_INDENT(1));
+    json_decref(root);
+    if (failed || putchar('\n') == EOF || fflush(stdout) == EOF)
+        return cli_fail("standard output cannot be written");
+    return CLI_OK;
+}
+
+static int print_text(const galv_model_data *old, const galv_model_data *new)
+{
+    printf("%zu samples and %zu more\n", old->samples, new->samples - old->samples);
+    printf("%zu modes retain %.3f %% of %.6g m^2; before, %zu retained %.3f %% of %.6g m^2\n",
+           new->modes, 100 * new->retained, new->trace, old->modes, 100 * old->retained,
+           old->trace);
+    printf("greatest angle between old and new modes: %.2f degrees\n",
+           new->confidence.angle * 180 / 3.14159265358979323846);
+    printf("eigenvalues may be too low by up to %.2e m^2\n", new->truncation);
+    printf("%4s %14s %14s %10s\n", "mode", "before", "now", "change %");
+    for (size_t k = 0; k < new->modes; k++) {
+        if (k < old->spectrum)
+            printf("%4zu %14.6e %14.6e %10.4f\n", k + 1, old->eigenvalues[k], new->eigenvalues[k],
+                   100 * (new->eigenvalues[k] / old->eigenvalues[k] - 1));
+        else
+            printf("%4zu %14s %14.6e\n", k + 1, "", new->eigenvalues[k]);
+    }
+    return fflush(stdout) == EOF ? cli_fail("standard output cannot be written") : CLI_OK;
+}
+
+static int run(const struct use *use, const struct rows *x)
+{
+    size_t seed, drawn;
+    galv_sampling sampling = choose_sampling(use, x, &seed, &drawn);
+    galv_model *grown = NULL;
+    if (!extend(use, sampling, &grown))
+        return CLI_FAILED;
+    struct model_file file = use->file;
+    file.model = grown;
+    file.uniform = use->file.uniform && !use->samples && seed == use->file.seed;
+    file.seed = seed;
+    file.drawn = drawn;
+    galv_model_data old = galv_model_view(use->file.model), new = galv_model_view(grown);
+    int result = use->output && !model_file_write(use->output, &file) ? CLI_FAILED
+                 : use->json                                          ? print_json(&old, &new)
+                                                                      : print_text(&old, &new);
+    galv_model_free(grown);
+    return result;
+}
+
+int command_extend(int argc, char **argv)
+{
+    struct use use;
+    int result = use_start(argc, argv, help, USE_OUTPUT | USE_MODES | USE_SAMPLES, &use);
+    if (result != -1)
+        return result;
+    struct rows x = {.values = NULL};
+    if (!use.random == !use.samples)
+        result = cli_usage("give either --random or --samples");
+    else if (use.samples && !rows_read(use.samples, galv_model_parameters(use.file.model), "x", &x))
+        result = CLI_FAILED;
+    else
+        result = run(&use, &x);
+    rows_free(&x);
+    use_free(&use);
+    return result;
+}
