@@ -19,6 +19,11 @@ typedef struct patch_sums {
 static const patch_sums no_sums = {.low = {INFINITY, INFINITY, INFINITY},
                                    .high = {-INFINITY, -INFINITY, -INFINITY}};
 
+/* Hands over rows of n points S, Su, Sv of the Gauss rule with `order` points a span and direction,
+ * with weights wu * wv[n]. */
+typedef void patch_row(void *context, size_t n, const double *triples, double wu, const double *wv);
+nurbs_status patch_visit(const nurbs_surface *surface, size_t order, patch_row *row, void *context);
+
 /* Gauss quadrature with `order` points a span and direction. */
 nurbs_status patch_integrate(const nurbs_surface *surface, double level, size_t order,
                              patch_sums *sums);

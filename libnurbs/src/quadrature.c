@@ -70,8 +70,7 @@ static void add_sums(const patch_sums *row, patch_sums *sums)
     sums->depth_nz += row->depth_nz;
 }
 
-nurbs_status patch_integrate(const nurbs_surface *surface, double level, size_t order,
-                             patch_sums *sums)
+nurbs_status patch_visit(const nurbs_surface *surface, size_t order, patch_row *row, void *context)
 {
     size_t nu = order * patch_spans(surface, 0), nv = order * patch_spans(surface, 1);
     double nodes[64], weights[64];
@@ -84,19 +83,36 @@ nurbs_status patch_integrate(const nurbs_surface *surface, double level, size_t 
     double *wu = u + nu, *v = wu + nu, *wv = v + nv, *block = wv + nv;
     composite_rule(surface, 0, order, nodes, weights, u, wu);
     composite_rule(surface, 1, order, nodes, weights, v, wv);
-    *sums = no_sums;
     for (size_t first = 0; first < nu && status == NURBS_OK; first += ROWS) {
         size_t rows = nu - first < ROWS ? nu - first : ROWS;
         status = nurbs_surface_eval_grid(surface, 1, rows, u + first, nv, v, block);
-        for (size_t i = 0; i < rows && status == NURBS_OK; i++) {
-            patch_sums line = no_sums;
-            for (size_t j = 0; j < nv; j++)
-                add_point(block + 9 * (i * nv + j), wu[first + i] * wv[j], level, &line);
-            add_sums(&line, sums);
-        }
+        for (size_t i = 0; i < rows && status == NURBS_OK; i++)
+            row(context, nv, block + 9 * i * nv, wu[first + i], wv);
     }
     free(u);
     return status;
+}
+
+struct sums_at_level {
+    double level;
+    patch_sums *sums;
+};
+
+static void sum_row(void *context, size_t n, const double *triples, double wu, const double *wv)
+{
+    const struct sums_at_level *at = context;
+    patch_sums line = no_sums;
+    for (size_t j = 0; j < n; j++)
+        add_point(triples + 9 * j, wu * wv[j], at->level, &line);
+    add_sums(&line, at->sums);
+}
+
+nurbs_status patch_integrate(const nurbs_surface *surface, double level, size_t order,
+                             patch_sums *sums)
+{
+    struct sums_at_level at = {level, sums};
+    *sums = no_sums;
+    return patch_visit(surface, order, sum_row, &at);
 }
 
 nurbs_status nurbs_surface_area(const nurbs_surface *surface, double *area, double *error)

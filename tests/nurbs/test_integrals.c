@@ -175,30 +175,33 @@ static void refuses_what_is_no_wetted_half_hull(void)
     nurbs_surface_free(hull);
 }
 
-static void moments_of(const nurbs_surface *surface, double values[5], double *gradient)
+static void moments_of(const nurbs_surface *surface, double values[NURBS_MOMENTS], double *gradient)
 {
     nurbs_moments m;
     CU_ASSERT_EQUAL_FATAL(nurbs_surface_moments(surface, &m, gradient), NURBS_OK);
-    const double all[5] = {m.area, m.volume, m.moment[0], m.moment[1], m.moment[2]};
-    memcpy(values, all, sizeof all);
+    values[0] = m.area;
+    values[1] = m.volume;
+    memcpy(values + 2, m.moment, sizeof m.moment);
+    memcpy(values + 5, m.second, sizeof m.second);
 }
 
-/* Area, volume and moments are homogeneous of degree 2, 3 and 4 in the control points (Euler), and
+/* Area, volume and moments are homogeneous of degree 2 to 5 in the control points (Euler), and
  * their derivatives agree with central differences. */
 static void gradients_of_moments(void)
 {
     nurbs_surface *body[2];
     CU_ASSERT_EQUAL_FATAL(nurbs_make_ellipsoid(2, 0.6, 0.5, 0.3, &body[0]), NURBS_OK);
     CU_ASSERT_EQUAL_FATAL(nurbs_make_wigley(2, 0.4, 0.3, &body[1]), NURBS_OK);
-    static const double power[5] = {2, 3, 4, 4, 4};
+    static const double power[NURBS_MOMENTS] = {2, 3, 4, 4, 4, 5, 5, 5, 5, 5, 5};
     for (int k = 0; k < 2; k++) {
         const int degree[2] = {2, 2};
         const size_t size[2] = {nurbs_surface_size(body[k], 0), nurbs_surface_size(body[k], 1)};
         size_t n = 3 * size[0] * size[1];
-        double *gradient = malloc(6 * n * sizeof *gradient), *p = gradient + 5 * n, values[5];
+        double *gradient = malloc((NURBS_MOMENTS + 1) * n * sizeof *gradient);
+        double *p = gradient + NURBS_MOMENTS * n, values[NURBS_MOMENTS];
         moments_of(body[k], values, gradient);
         memcpy(p, nurbs_surface_points(body[k]), n * sizeof *p);
-        for (size_t m = 0; m < 5; m++) {
+        for (size_t m = 0; m < NURBS_MOMENTS; m++) {
             double sum = 0, scale = 0;
             for (size_t i = 0; i < n; i++) {
                 sum += gradient[m * n + i] * p[i];
@@ -207,7 +210,7 @@ static void gradients_of_moments(void)
             CHECK_CLOSE(sum, power[m] * values[m], 1e-12 * scale + 1e-14);
         }
         for (size_t i = 1; i < n; i += 7) {
-            double low[5], high[5], before = p[i], step = 1e-5;
+            double low[NURBS_MOMENTS], high[NURBS_MOMENTS], before = p[i], step = 1e-5;
             for (int side = -1; side <= 1; side += 2) {
                 nurbs_surface *moved;
                 p[i] = before + side * step;
@@ -220,13 +223,108 @@ static void gradients_of_moments(void)
                 nurbs_surface_free(moved);
             }
             p[i] = before;
-            for (size_t m = 1; m < 5; m++) /* polynomials in the points */
+            for (size_t m = 1; m < NURBS_MOMENTS; m++) /* polynomials in the points */
                 CHECK_CLOSE((high[m] - low[m]) / (2 * step), gradient[m * n + i], 1e-9);
             if (k == 1) /* the area has no derivative where the ellipsoid collapses */
                 CHECK_CLOSE((high[0] - low[0]) / (2 * step), gradient[i], 1e-7);
         }
         free(gradient);
         nurbs_surface_free(body[k]);
+    }
+}
+
+static void check_moment(double value, double error, double exact, double scale)
+{
+    CU_ASSERT(error >= 0 && error < 1e-3 * scale);
+    CHECK_CLOSE(value, exact, error);
+}
+
+/* Bodies in closed form, moved off the axes: every true error is at most the stated one. Slender
+ * and pointed ones converge slowly; then the estimate must grow. */
+static void patch_moments_within_their_error(void)
+{
+    static const double size[4][3] = {{2, 2, 2}, {5, 0.4, 0.3}, {1, 0.05, 3}, {100, 1, 0.02}};
+    const double shift[3] = {0.3, 0.7, -0.4};
+    for (int k = 0; k < 4; k++) {
+        nurbs_surface *half, *moved;
+        nurbs_patches *body;
+        nurbs_moments m, e;
+        CU_ASSERT_EQUAL_FATAL(nurbs_make_ellipsoid(size[k][0], size[k][1], size[k][2], 0, &half),
+                              NURBS_OK);
+        CU_ASSERT_EQUAL_FATAL(nurbs_patches_create(&body), NURBS_OK);
+        for (int side = -1; side <= 1; side += 2) {
+            const double mirror[9] = {side, 0, 0, 0, side, 0, 0, 0, 1}; /* half a turn about z */
+            CU_ASSERT_EQUAL(nurbs_surface_transform(half, mirror, shift, &moved), NURBS_OK);
+            CU_ASSERT_EQUAL(nurbs_patches_add(body, moved), NURBS_OK);
+            nurbs_surface_free(moved);
+        }
+        CU_ASSERT_EQUAL_FATAL(nurbs_patches_moments(body, &m, &e), NURBS_OK);
+        double sign = m.volume > 0 ? 1 : -1,
+               volume = sign * pi / 6 * size[k][0] * size[k][1] * size[k][2];
+        double reach = fmax(size[k][0], size[k][2]) + 1;
+        check_moment(m.volume, e.volume, volume, fabs(volume));
+        for (int c = 0; c < 3; c++) {
+            int d = (c + 1) % 3;
+            double semi = 0.5 * size[k][c];
+            check_moment(m.moment[c], e.moment[c], volume * shift[c], fabs(volume) * reach);
+            check_moment(m.second[c], e.second[c], volume * (semi * semi / 5 + shift[c] * shift[c]),
+                         fabs(volume) * reach * reach);
+            check_moment(m.second[3 + c], e.second[3 + c], volume * shift[c] * shift[d],
+                         fabs(volume) * reach * reach);
+        }
+        if (k == 0)
+            check_moment(m.area, e.area, 4 * pi, 4 * pi);
+        if (k == 1) { /* Legendre's formula needs elliptic integrals; a spheroid does not */
+            nurbs_patches_free(body);
+            nurbs_surface_free(half);
+            CU_ASSERT_EQUAL_FATAL(nurbs_make_ellipsoid(5, 0.4, 0.4, 0, &half), NURBS_OK);
+            CU_ASSERT_EQUAL_FATAL(nurbs_patches_create(&body), NURBS_OK);
+            CU_ASSERT_EQUAL(nurbs_patches_add(body, half), NURBS_OK);
+            CU_ASSERT_EQUAL_FATAL(nurbs_patches_moments(body, &m, &e), NURBS_OK);
+            double ex = sqrt(1 - 0.4 * 0.4 / 25);
+            check_moment(m.area, e.area, pi * 0.04 * (1 + 2.5 / (0.2 * ex) * asin(ex)), m.area);
+        }
+        nurbs_patches_free(body);
+        nurbs_surface_free(half);
+    }
+}
+
+/* A cubic sheet with a crease inside a span and one with a cusp: |n| is not smooth, the area
+ * converges slowly, and the estimate covers that. */
+static void area_error_of_folded_sheets(void)
+{
+    const double knots[8] = {0, 0, 0, 0, 1, 1, 1, 1}, line[4] = {0, 0, 1, 1};
+    for (int k = 0; k < 8; k++) {
+        /* x(u) = u (u - a)^... : dx/du = (u - a)(u - b), the sheet goes back and forth in x. */
+        double a = 0.2 + 0.09 * k, b = k % 2 ? a : 0.9, points[24];
+        const double x[4] = {0, a * b / 3, a * b / 3 * 2 - (a + b) / 6,
+                             a * b - (a + b) / 2 + 1.0 / 3};
+        for (int i = 0; i < 4; i++)
+            for (int j = 0; j < 2; j++) {
+                points[6 * i + 3 * j] = x[i];
+                points[6 * i + 3 * j + 1] = j;
+                points[6 * i + 3 * j + 2] = 0;
+            }
+        nurbs_surface *sheet;
+        nurbs_patches *body;
+        nurbs_moments m, e;
+        CU_ASSERT_EQUAL_FATAL(nurbs_surface_create((const int[]){3, 1}, (const size_t[]){4, 2},
+                                                   knots, line, points, NULL, &sheet),
+                              NURBS_OK);
+        CU_ASSERT_EQUAL_FATAL(nurbs_patches_create(&body), NURBS_OK);
+        CU_ASSERT_EQUAL(nurbs_patches_add(body, sheet), NURBS_OK);
+        CU_ASSERT_EQUAL_FATAL(nurbs_patches_moments(body, &m, &e), NURBS_OK);
+        /* Length of the way in x: |x(a) - 0| + |x(b) - x(a)| + |x(1) - x(b)|. */
+        double at[4] = {0, a, b, 1}, way = 0;
+        for (int i = 1; i < 4; i++) {
+            double from = at[i - 1], to = at[i];
+            way += fabs(to * to * to / 3 - (a + b) * to * to / 2 + a * b * to -
+                        (from * from * from / 3 - (a + b) * from * from / 2 + a * b * from));
+        }
+        CHECK_CLOSE(m.area, way, e.area);
+        CU_ASSERT(e.area < 0.05 * way);
+        nurbs_patches_free(body);
+        nurbs_surface_free(sheet);
     }
 }
 
@@ -253,6 +351,8 @@ static const struct check_case cases[] = {
     {"DTMB 5415 against panels", dtmb5415_against_panels},
     {"two patches are one hull", two_patches_are_one_hull},
     {"gradients of moments", gradients_of_moments},
+    {"patch moments within their error", patch_moments_within_their_error},
+    {"area error of folded sheets", area_error_of_folded_sheets},
     {"moments agree with hydrostatics", moments_agree_with_hydrostatics},
     {"refuses what is no wetted half hull", refuses_what_is_no_wetted_half_hull},
 };

@@ -39,20 +39,34 @@ NURBS_API nurbs_status nurbs_hydrostatics_compute(size_t n, const nurbs_surface 
 NURBS_API nurbs_status nurbs_surface_area(const nurbs_surface *surface, double *area,
                                           double *error);
 
-/** Integrals over one patch with its own orientation, n = Su x Sv. */
+/** Integrals over patches with their own orientation, n = Su x Sv. The volume is that between the
+ * surface and the plane y = 0, seen along y: for a closed body with normals outwards its volume,
+ * for a wetted half hull half the displacement (centre plane and waterplane carry no n_y). */
 typedef struct nurbs_moments {
-    double area;   /**< m^2 */
-    double volume; /**< int y n_y dS, m^3: half the displacement of a wetted half hull whose normal
-                        points outwards */
-    double moment[3]; /**< int (x, y/2, z) y n_y dS, m^4: the moments of that volume */
+    double area;      /**< m^2 */
+    double volume;    /**< int y n_y dS, m^3 */
+    double moment[3]; /**< int (x, y, z) dV = int (x, y/2, z) y n_y dS, m^4 */
+    double second[6]; /**< int (xx, yy, zz, xy, yz, zx) dV
+                           = int (x^2, y^2/3, z^2, xy/2, yz/2, zx) y n_y dS, m^5 */
 } nurbs_moments;
 
-/** Fills moments and, if gradient is not NULL, gradient[5][3 * size[0] * size[1]]: the derivatives
- * of area, volume and the three moments with respect to the coordinates of the control points, in
- * the order of nurbs_surface_points(). Same quadrature for both, so the gradient is exact for the
- * sums. (The derivative of a point is the row of nurbs_surface_basis().) */
+/** Number of quantities in nurbs_moments, in their order: rows of a gradient. */
+#define NURBS_MOMENTS 11
+
+/** Fills moments and, if gradient is not NULL, gradient[NURBS_MOMENTS][3 * size[0] * size[1]]: the
+ * derivatives with respect to the coordinates of the control points, in the order of
+ * nurbs_surface_points(). Same quadrature for both, so the gradient is exact for the sums; for a
+ * polynomial patch volume and moments are exact to rounding. (The derivative of a point is the row
+ * of nurbs_surface_rows().) */
 NURBS_API nurbs_status nurbs_surface_moments(const nurbs_surface *surface, nurbs_moments *moments,
                                              double *gradient);
+
+/** Sums over all patches. Quadrature is repeated with twice as many points until the two agree to
+ * 1e-12 or the patch has 2e6 points (about a second).
+ * @param error  fills an estimate of the absolute error of every quantity: the sum over the patches of
+ *               what the last two changes leave to expect, and rounding; NULL allowed */
+NURBS_API nurbs_status nurbs_patches_moments(const nurbs_patches *patches, nurbs_moments *moments,
+                                             nurbs_moments *error);
 
 #ifdef __cplusplus
 }

@@ -25,6 +25,7 @@
 #include <nurbs/simplify.h>
 #include <nurbs/status.h>
 #include <nurbs/surface.h>
+#include <nurbs/topology.h>
 #include <nurbs/trim.h>
 
 #endif
