@@ -45,7 +45,8 @@ expect 0 "$nurbs" --help
 grep -q "usage: nurbs make" stdout || fail "--help lacks make"
 expect 0 "$nurbs" --version
 grep -Eq '^nurbs [0-9]+\.[0-9]+\.[0-9]+$' stdout || fail "--version: $(cat stdout)"
-for command in make info eval skin fit grid simplify wetted hydrostatics convert plot; do
+for command in make info eval skin fit grid simplify wetted hydrostatics moments closest cut edit \
+    convert plot; do
     expect 0 "$nurbs" $command --help
     grep -q "^usage: nurbs $command" stdout || fail "$command --help"
     expect 2 "$nurbs" $command --no-such-option
@@ -153,6 +154,43 @@ close volume 0.17777777777777778 1e-12
 expect 0 "$nurbs" plot "$hulls/dtmb5415.json" -o lines.svg
 grep -q '</svg>' lines.svg || fail "lines.svg is not complete"
 grep -c '<path' lines.svg | awk '{ exit !($1 > 20) }' || fail "lines.svg has few curves"
+
+# Patches: shared edges, orientation, exact changes; all of them leave the volume alone.
+expect 0 "$nurbs" edit wigley.json split:u:0.4 -o halves.json
+expect 0 "$nurbs" edit halves.json reverse:v -o turned.json
+expect 0 "$nurbs" info halves.json --json
+close inconsistent 0 0
+grep -q '"shared": \[{' stdout || fail "no shared edge"
+grep -q '"centre_plane": true' stdout || fail "no edge in the centre plane"
+expect 0 "$nurbs" info turned.json
+grep -q 'last u - patch 1 first u' stdout || fail "shared edge is not named"
+expect 0 "$nurbs" edit turned.json orient:1e-6 elevate:u:1 elevate:v:2 \
+    refine:2 bezier -o fine.json
+expect 0 "$nurbs" edit wigley.json insert:u:0.1:0.3:0.7 patch:0 -o fine.json
+expect 1 "$nurbs" edit turned.json insert:u:7 -o none.json
+says "insert:u:7"
+expect 0 "$nurbs" edit wigley.json swap reverse:u part:v:0:1 move:1,2,3 move:-1,-2,-3 turn:90,0,0,1 \
+    turn:-90,0,0,1 mirror:y orient:1e-6 -o ship.json
+expect 0 "$nurbs" moments ship.json --json
+close volume 0.022222222222222222 1e-12
+expect 0 "$nurbs" moments wigley.json --json
+close volume 0.011111111111111111 1e-12
+for wrong in frobnicate elevate elevate:w:1 elevate:u:1.5 insert:u scale:1,2 mirror:w move:1,2 \
+    turn:90,0,0,0 refine:2x; do
+    expect 2 "$nurbs" edit wigley.json $wrong -o none.json
+done
+expect 1 "$nurbs" edit wigley.json patch:3 -o none.json
+[ ! -e none.json ] || fail "a refused edit left none.json"
+printf 'x,y,z\n-0.5,0.05625,-0.0625\n0.2,3,-0.05\n' >xyz.csv
+expect 0 "$nurbs" closest wigley.json --at xyz.csv
+awk -F, 'NR == 2 { d = ($5 - 0.25) ^ 2 + ($6 - 0.5) ^ 2; exit !(d < 1e-20 && $7 < 1e-12) }' stdout ||
+    fail "inversion of a point: $(sed -n 2p stdout)"
+expect 0 "$nurbs" cut wigley.json --plane z=-0.0625
+awk -F, 'NR > 1 { e = $6 - 0.075 * (1 - $5 * $5); n++; if (e * e > 1e-24 || $7 != -0.0625) bad++ }
+    END { exit !(n > 4 && !bad) }' stdout || fail "waterline of the Wigley hull"
+expect 1 "$nurbs" cut wigley.json --plane z=1
+expect 2 "$nurbs" cut wigley.json --plane w=1
+expect 0 "$nurbs" simplify fine.json --tolerance 1e-6 --geometric -o light.json
 
 # Nothing half-written stays behind.
 expect 1 "$nurbs" convert wigley.json /nonexistent/x.json

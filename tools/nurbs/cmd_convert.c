@@ -17,8 +17,7 @@ struct request {
 
 static int convert(const char *input, const char *output, const struct request *request)
 {
-    const double scale = request->scale, length = request->length;
-    const char *note = request->note;
+    const double scale = request->scale;
     char report[4000] = "";
     nurbs_patches *read = NULL, *written = NULL;
     nurbs_status status = is_iges(input) ? nurbs_patches_read_iges_untrimmed(
@@ -26,25 +25,12 @@ static int convert(const char *input, const char *output, const struct request *
                                          : nurbs_patches_read(input, &read);
     if (status != NURBS_OK)
         return library_failure();
-    const double matrix[9] = {scale, 0, 0, 0, scale, 0, 0, 0, scale}, shift[3] = {0, 0, 0};
-    status = nurbs_patches_create(&written);
-    for (size_t k = 0; k < nurbs_patches_count(read) && status == NURBS_OK; k++) {
-        nurbs_surface *surface = NULL;
-        const double *u, *v;
-        status = nurbs_surface_transform(nurbs_patches_get(read, k), matrix, shift, &surface);
-        if (status == NURBS_OK)
-            status = nurbs_patches_add(written, surface);
-        size_t rows = nurbs_patches_parameters(read, k, 0, &u),
-               columns = nurbs_patches_parameters(read, k, 1, &v);
-        if (status == NURBS_OK)
-            status = nurbs_patches_set_parameters(written, k, rows, u, columns, v);
-        nurbs_surface_free(surface);
-    }
-    if (status == NURBS_OK)
-        status = nurbs_patches_set_length(written,
-                                          length > 0 ? length : scale * nurbs_patches_length(read));
-    if (status == NURBS_OK)
-        status = nurbs_patches_set_note(written, note ? note : nurbs_patches_note(read));
+    const double matrix[9] = {scale, 0, 0, 0, scale, 0, 0, 0, scale};
+    status = nurbs_patches_transform(read, matrix, NULL, &written);
+    if (status == NURBS_OK && request->length > 0)
+        status = nurbs_patches_set_length(written, request->length);
+    if (status == NURBS_OK && request->note)
+        status = nurbs_patches_set_note(written, request->note);
     if (status == NURBS_OK)
         status = nurbs_patches_write(written, output);
     int code = status == NURBS_OK ? CLI_OK : library_failure();
@@ -61,34 +47,15 @@ static int convert(const char *input, const char *output, const struct request *
 
 static int run(int argc, char **argv)
 {
-    static const struct option options[] = {{"scale", required_argument, NULL, 's'},
-                                            {"lpp", required_argument, NULL, 'l'},
-                                            {"note", required_argument, NULL, 'n'},
-                                            {"untrim", required_argument, NULL, 'u'},
-                                            COMMON_OPTIONS,
-                                            END_OF_OPTIONS};
     struct request request = {.scale = 1};
-    int letter, code = CLI_OK;
-    while (code == CLI_OK && (letter = getopt_long(argc, argv, ":", options, NULL)) != -1)
-        switch (letter) {
-        case 's':
-            if (!cli_parse_double(optarg, &request.scale) || !(request.scale > 0))
-                code = cli_usage("--scale '%s': expected a number > 0", optarg);
-            break;
-        case 'l':
-            code = length_option("lpp", optarg, &request.length);
-            break;
-        case 'n':
-            request.note = optarg;
-            break;
-        case 'u':
-            code = length_option("untrim", optarg, &request.untrim);
-            break;
-        default:
-            code = common_option(letter, argv, &request.json);
-        }
-    if (code == CLI_OK)
-        code = operand_count(argc, argv, 2, "an input and an output file");
+    const tool_option options[] = {{"scale", OPTION_NUMBER, &request.scale, 0, 0},
+                                   {"lpp", OPTION_LENGTH, &request.length, 0, 0},
+                                   {"note", OPTION_TEXT, &request.note, 0, 0},
+                                   {"untrim", OPTION_LENGTH, &request.untrim, 0, 0}};
+    const operands files = {2, 2, "an input and an output file"};
+    int code = parse_options(argc, argv, OPTION_COUNT_OF(options), options, files, &request.json);
+    if (code == CLI_OK && !(request.scale > 0))
+        code = cli_usage("--scale %g: expected a number > 0", request.scale);
     return code == CLI_OK ? convert(argv[optind], argv[optind + 1], &request) : code;
 }
 

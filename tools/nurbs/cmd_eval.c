@@ -65,33 +65,13 @@ static int evaluate(const nurbs_surface *surface, const struct cli_table *table,
 
 static int run(int argc, char **argv)
 {
-    static const struct option options[] = {{"patch", required_argument, NULL, 'k'},
-                                            {"at", required_argument, NULL, 'a'},
-                                            {"derivatives", required_argument, NULL, 'd'},
-                                            COMMON_OPTIONS,
-                                            END_OF_OPTIONS};
-    size_t index = 0;
+    size_t index = 0, order = 0;
     const char *at = NULL;
-    int order = 0, letter, code = CLI_OK;
     bool json = false;
-    while (code == CLI_OK && (letter = getopt_long(argc, argv, ":", options, NULL)) != -1)
-        switch (letter) {
-        case 'k':
-            if (!cli_parse_size(optarg, &index))
-                code = cli_usage("--patch '%s': expected a number from 0", optarg);
-            break;
-        case 'a':
-            at = optarg;
-            break;
-        case 'd':
-            if (!cli_parse_int(optarg, &order) || order < 0 || order > 2)
-                code = cli_usage("--derivatives '%s': expected 0, 1 or 2", optarg);
-            break;
-        default:
-            code = common_option(letter, argv, &json);
-        }
-    if (code == CLI_OK)
-        code = operand_count(argc, argv, 1, "one NURBS file");
+    const tool_option options[] = {PATCH_OPTION(&index),
+                                   {"at", OPTION_TEXT, &at, 0, 0},
+                                   {"derivatives", OPTION_COUNT, &order, 0, 2}};
+    int code = parse_options(argc, argv, OPTION_COUNT_OF(options), options, one_file, &json);
     if (code == CLI_OK && !at)
         code = cli_usage("no parameters: give --at UV.csv ('-' reads standard input)");
     if (code != CLI_OK)
@@ -103,7 +83,7 @@ static int run(int argc, char **argv)
     if (code == CLI_OK && !cli_table_read(at, &table))
         code = CLI_FAILED;
     if (code == CLI_OK)
-        code = evaluate(surface, &table, at, order, json);
+        code = evaluate(surface, &table, at, (int)order, json);
     cli_table_free(&table);
     nurbs_patches_free(patches);
     return code;

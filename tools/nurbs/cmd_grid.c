@@ -51,47 +51,16 @@ static int sample(const nurbs_patches *patches, size_t index, size_t rows, size_
     return code;
 }
 
-static int size_option(const char *name, const char *text, size_t *value)
-{
-    if (!cli_parse_size(text, value) || *value < 2)
-        return cli_usage("--%s '%s': expected a number from 2", name, text);
-    return CLI_OK;
-}
-
 static int run(int argc, char **argv)
 {
-    static const struct option options[] = {{"rows", required_argument, NULL, 'r'},
-                                            {"columns", required_argument, NULL, 'c'},
-                                            {"patch", required_argument, NULL, 'k'},
-                                            {"output", required_argument, NULL, 'o'},
-                                            COMMON_OPTIONS,
-                                            END_OF_OPTIONS};
     size_t rows = 0, columns = 0, index = 0;
     const char *output = NULL;
     bool json = false;
-    int letter, code = CLI_OK;
-    while (code == CLI_OK && (letter = getopt_long(argc, argv, ":o:", options, NULL)) != -1)
-        switch (letter) {
-        case 'r':
-            code = size_option("rows", optarg, &rows);
-            break;
-        case 'c':
-            code = size_option("columns", optarg, &columns);
-            break;
-        case 'k':
-            if (!cli_parse_size(optarg, &index))
-                code = cli_usage("--patch '%s': expected a number from 0", optarg);
-            break;
-        case 'o':
-            output = optarg;
-            break;
-        default:
-            code = common_option(letter, argv, &json);
-        }
-    if (code == CLI_OK)
-        code = operand_count(argc, argv, 1, "one NURBS file");
-    if (code == CLI_OK && !output)
-        code = cli_usage("no output file: give -o GRID.csv");
+    const tool_option options[] = {{"rows", OPTION_COUNT, &rows, 2, 1000000},
+                                   {"columns", OPTION_COUNT, &columns, 2, 1000000},
+                                   PATCH_OPTION(&index),
+                                   {"output", OPTION_OUTPUT, &output, 0, 0}};
+    int code = parse_options(argc, argv, OPTION_COUNT_OF(options), options, one_file, &json);
     if (code != CLI_OK)
         return code;
     nurbs_patches *patches = NULL;

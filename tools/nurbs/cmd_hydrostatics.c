@@ -82,26 +82,11 @@ static int compute(const char *path, double level, double tolerance, bool json)
 
 static int run(int argc, char **argv)
 {
-    static const struct option options[] = {{"level", required_argument, NULL, 'z'},
-                                            {"tolerance", required_argument, NULL, 't'},
-                                            COMMON_OPTIONS,
-                                            END_OF_OPTIONS};
     double level = 0, tolerance = 1e-5;
     bool json = false;
-    int letter, code = CLI_OK;
-    while (code == CLI_OK && (letter = getopt_long(argc, argv, ":", options, NULL)) != -1)
-        switch (letter) {
-        case 'z':
-            code = number_option("level", optarg, &level);
-            break;
-        case 't':
-            code = length_option("tolerance", optarg, &tolerance);
-            break;
-        default:
-            code = common_option(letter, argv, &json);
-        }
-    if (code == CLI_OK)
-        code = operand_count(argc, argv, 1, "one NURBS file");
+    const tool_option options[] = {{"level", OPTION_NUMBER, &level, 0, 0},
+                                   {"tolerance", OPTION_LENGTH, &tolerance, 0, 0}};
+    int code = parse_options(argc, argv, OPTION_COUNT_OF(options), options, one_file, &json);
     return code == CLI_OK ? compute(argv[optind], level, tolerance, json) : code;
 }
 

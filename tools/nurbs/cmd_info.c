@@ -61,42 +61,146 @@ static int describe(const nurbs_patches *patches, size_t index, bool json, json_
     return CLI_OK;
 }
 
+static const char *const side_names[4] = {"first u", "last u", "first v", "last v"};
+
+/* Whether an edge of a half body lies in the centre plane, where the other half takes over. */
+static bool in_centre_plane(const nurbs_patches *patches, const nurbs_edge *edge, double tolerance)
+{
+    const nurbs_surface *surface = nurbs_patches_get(patches, edge->patch);
+    const double *p = nurbs_surface_points(surface);
+    size_t nu = nurbs_surface_size(surface, 0), nv = nurbs_surface_size(surface, 1);
+    bool within = true;
+    for (size_t k = 0; k < (edge->side < 2 ? nv : nu); k++) {
+        size_t at = edge->side < 2 ? (edge->side == 0 ? 0 : nu - 1) * nv + k
+                                   : k * nv + (edge->side == 2 ? 0 : nv - 1);
+        within &= fabs(p[3 * at + 1]) <= tolerance;
+    }
+    return within;
+}
+
+static void print_topology(const nurbs_patches *patches, const nurbs_topology *t, double tolerance)
+{
+    printf("edges within %.3g m of each other: %zu shared, largest gap %.3g m; ", tolerance,
+           t->joints, t->gap);
+    if (t->inconsistent > 0)
+        printf("the orientation changes at %zu of them\n", t->inconsistent);
+    else
+        printf("one orientation\n");
+    for (size_t k = 0; k < t->joints; k++) {
+        const nurbs_joint *j = &t->joint[k];
+        printf("  patch %zu %s - patch %zu %s: %.6g m, gap %.3g m%s\n", j->edge[0] / 4,
+               side_names[j->edge[0] % 4], j->edge[1] / 4, side_names[j->edge[1] % 4], j->length,
+               j->gap, j->consistent ? "" : ", normals differ");
+    }
+    for (size_t k = 0; k < t->edges; k++) {
+        const nurbs_edge *e = &t->edge[k];
+        if (e->collapsed)
+            printf("  patch %zu %s: a point\n", e->patch, side_names[e->side]);
+        else if (e->length - e->joined > 10 * tolerance)
+            printf("  patch %zu %s: %.6g m free%s\n", e->patch, side_names[e->side],
+                   e->length - e->joined,
+                   in_centre_plane(patches, e, tolerance) ? ", in the centre plane" : "");
+    }
+}
+
+static json_t *pack_topology(const nurbs_patches *patches, const nurbs_topology *t,
+                             double tolerance)
+{
+    json_t *joints = json_array(), *edges = json_array();
+    for (size_t k = 0; k < t->joints; k++) {
+        const nurbs_joint *j = &t->joint[k];
+        json_array_append_new(
+            joints, json_pack("{s:[I,I],s:[s,s],s:[[f,f],[f,f]],s:f,s:f,s:b}", "patches",
+                              (json_int_t)(j->edge[0] / 4), (json_int_t)(j->edge[1] / 4), "edges",
+                              side_names[j->edge[0] % 4], side_names[j->edge[1] % 4], "ranges",
+                              j->from[0], j->to[0], j->from[1], j->to[1], "length", j->length,
+                              "gap", j->gap, "consistent", j->consistent));
+    }
+    for (size_t k = 0; k < t->edges; k++) {
+        const nurbs_edge *e = &t->edge[k];
+        json_array_append_new(edges,
+                              json_pack("{s:I,s:s,s:f,s:f,s:b,s:b}", "patch", (json_int_t)e->patch,
+                                        "edge", side_names[e->side], "length", e->length, "free",
+                                        fmax(e->length - e->joined, 0), "collapsed", e->collapsed,
+                                        "centre_plane", in_centre_plane(patches, e, tolerance)));
+    }
+    return json_pack("{s:f,s:f,s:I,s:o,s:o}", "tolerance", tolerance, "gap", t->gap, "inconsistent",
+                     (json_int_t)t->inconsistent, "shared", joints, "edges", edges);
+}
+
+/* A ten-thousandth of the largest extent: edges that CAD systems take for one are closer, and few
+ * details of a hull are that small. */
+static double default_tolerance(const nurbs_patches *patches)
+{
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY},
+           extent = 0;
+    for (size_t k = 0; k < nurbs_patches_count(patches); k++) {
+        double box[6];
+        bounding_box(nurbs_patches_get(patches, k), box);
+        for (int c = 0; c < 3; c++) {
+            low[c] = fmin(low[c], box[c]);
+            high[c] = fmax(high[c], box[3 + c]);
+        }
+    }
+    for (int c = 0; c < 3; c++)
+        extent = fmax(extent, high[c] - low[c]);
+    return extent > 0 ? 1e-4 * extent : 1e-4;
+}
+
+static void print_heading(const char *path, const nurbs_patches *patches)
+{
+    size_t count = nurbs_patches_count(patches);
+    printf("%s: %zu patch%s", path, count, count == 1 ? "" : "es");
+    if (nurbs_patches_length(patches) > 0)
+        printf(", reference length %.6g m", nurbs_patches_length(patches));
+    printf("\n");
+    if (*nurbs_patches_note(patches))
+        printf("note: %s\n", nurbs_patches_note(patches));
+}
+
+static int inform(const char *path, const nurbs_patches *patches, double tolerance, bool json)
+{
+    nurbs_topology topology;
+    json_t *list = json_array();
+    int code = CLI_OK;
+    if (nurbs_patches_topology(patches, tolerance, &topology) != NURBS_OK)
+        code = library_failure();
+    if (code == CLI_OK && !json)
+        print_heading(path, patches);
+    for (size_t k = 0; k < nurbs_patches_count(patches) && code == CLI_OK; k++)
+        code = describe(patches, k, json, list);
+    if (code == CLI_OK && json)
+        code = print_json(json_pack("{s:s,s:f,s:s,s:O,s:o}", "file", path, "lpp",
+                                    nurbs_patches_length(patches), "note",
+                                    nurbs_patches_note(patches), "patches", list, "topology",
+                                    pack_topology(patches, &topology, tolerance)));
+    else if (code == CLI_OK)
+        print_topology(patches, &topology, tolerance);
+    json_decref(list);
+    nurbs_topology_free(&topology);
+    return code;
+}
+
 static int run(int argc, char **argv)
 {
-    static const struct option options[] = {COMMON_OPTIONS, END_OF_OPTIONS};
+    double tolerance = 0;
     bool json = false;
-    int letter, code = CLI_OK;
-    while (code == CLI_OK && (letter = getopt_long(argc, argv, ":", options, NULL)) != -1)
-        code = common_option(letter, argv, &json);
-    if (code == CLI_OK)
-        code = operand_count(argc, argv, 1, "one NURBS file");
+    const tool_option options[] = {{"tolerance", OPTION_LENGTH, &tolerance, 0, 0}};
+    int code = parse_options(argc, argv, OPTION_COUNT_OF(options), options, one_file, &json);
     if (code != CLI_OK)
         return code;
     nurbs_patches *patches = NULL;
     code = load_patches(argv[optind], &patches);
-    if (code != CLI_OK)
-        return code;
-    size_t count = nurbs_patches_count(patches);
-    json_t *list = json_array();
-    if (!json) {
-        printf("%s: %zu patch%s", argv[optind], count, count == 1 ? "" : "es");
-        if (nurbs_patches_length(patches) > 0)
-            printf(", reference length %.6g m", nurbs_patches_length(patches));
-        printf("\n");
-        if (*nurbs_patches_note(patches))
-            printf("note: %s\n", nurbs_patches_note(patches));
-    }
-    for (size_t k = 0; k < count && code == CLI_OK; k++)
-        code = describe(patches, k, json, list);
-    if (code == CLI_OK && json)
-        code = print_json(json_pack("{s:s,s:f,s:s,s:O}", "file", argv[optind], "lpp",
-                                    nurbs_patches_length(patches), "note",
-                                    nurbs_patches_note(patches), "patches", list));
-    json_decref(list);
+    if (code == CLI_OK)
+        code = inform(argv[optind], patches, tolerance > 0 ? tolerance : default_tolerance(patches),
+                      json);
     nurbs_patches_free(patches);
     return code;
 }
 
-const subcommand info_command = {"info", "describe the patches of a file", run,
-                                 "usage: nurbs info FILE\n"
-                                 "  Degrees, sizes, extents and areas of the patches of a file.\n"};
+const subcommand info_command = {
+    "info", "describe the patches of a file", run,
+    "usage: nurbs info FILE [options]\n"
+    "  Degrees, sizes, extents and areas of the patches of a file; shared edges with their\n"
+    "  gaps, free edges, and whether all normals are on one side.\n"
+    "  --tolerance T  metres within which edges run together (1e-4 of the largest extent)\n"};

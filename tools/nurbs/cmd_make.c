@@ -70,45 +70,15 @@ static int write_body(const struct body *body, struct dimensions d, const char *
 
 static int run(int argc, char **argv)
 {
-    static const struct option options[] = {{"length", required_argument, NULL, 'L'},
-                                            {"beam", required_argument, NULL, 'B'},
-                                            {"height", required_argument, NULL, 'Z'},
-                                            {"draft", required_argument, NULL, 'D'},
-                                            {"depth", required_argument, NULL, 'H'},
-                                            {"output", required_argument, NULL, 'o'},
-                                            COMMON_OPTIONS,
-                                            END_OF_OPTIONS};
     struct dimensions d = {0};
     const char *output = NULL;
     bool json = false;
-    int letter, code = CLI_OK;
-    while (code == CLI_OK && (letter = getopt_long(argc, argv, ":o:", options, NULL)) != -1)
-        switch (letter) {
-        case 'L':
-            code = length_option("length", optarg, &d.length);
-            break;
-        case 'B':
-            code = length_option("beam", optarg, &d.beam);
-            break;
-        case 'Z':
-            code = length_option("height", optarg, &d.height);
-            break;
-        case 'D':
-            code = length_option("draft", optarg, &d.draft);
-            break;
-        case 'H':
-            code = number_option("depth", optarg, &d.depth);
-            break;
-        case 'o':
-            output = optarg;
-            break;
-        default:
-            code = common_option(letter, argv, &json);
-        }
-    if (code == CLI_OK)
-        code = operand_count(argc, argv, 1, "one body: sphere, spheroid, ellipsoid or wigley");
-    if (code == CLI_OK && !output)
-        code = cli_usage("no output file: give -o FILE");
+    const tool_option options[] = {
+        {"length", OPTION_LENGTH, &d.length, 0, 0}, {"beam", OPTION_LENGTH, &d.beam, 0, 0},
+        {"height", OPTION_LENGTH, &d.height, 0, 0}, {"draft", OPTION_LENGTH, &d.draft, 0, 0},
+        {"depth", OPTION_NUMBER, &d.depth, 0, 0},   {"output", OPTION_OUTPUT, &output, 0, 0}};
+    const operands body = {1, 1, "one body: sphere, spheroid, ellipsoid or wigley"};
+    int code = parse_options(argc, argv, OPTION_COUNT_OF(options), options, body, &json);
     if (code != CLI_OK)
         return code;
     for (size_t k = 0; k < sizeof bodies / sizeof bodies[0]; k++)

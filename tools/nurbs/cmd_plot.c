@@ -212,49 +212,16 @@ static int plot(const char *input, const struct request *request, bool json)
     return code;
 }
 
-static int count_option(const char *name, const char *text, size_t *value)
-{
-    if (!cli_parse_size(text, value) || *value > 1000)
-        return cli_usage("--%s '%s': expected a number up to 1000", name, text);
-    return CLI_OK;
-}
-
 static int run(int argc, char **argv)
 {
-    static const struct option options[] = {{"stations", required_argument, NULL, 's'},
-                                            {"waterlines", required_argument, NULL, 'w'},
-                                            {"buttocks", required_argument, NULL, 'b'},
-                                            {"level", required_argument, NULL, 'z'},
-                                            {"output", required_argument, NULL, 'o'},
-                                            COMMON_OPTIONS,
-                                            END_OF_OPTIONS};
     struct request request = {20, 12, 4, 0, NULL};
     bool json = false;
-    int letter, code = CLI_OK;
-    while (code == CLI_OK && (letter = getopt_long(argc, argv, ":o:", options, NULL)) != -1)
-        switch (letter) {
-        case 's':
-            code = count_option("stations", optarg, &request.stations);
-            break;
-        case 'w':
-            code = count_option("waterlines", optarg, &request.waterlines);
-            break;
-        case 'b':
-            code = count_option("buttocks", optarg, &request.buttocks);
-            break;
-        case 'z':
-            code = number_option("level", optarg, &request.level);
-            break;
-        case 'o':
-            request.output = optarg;
-            break;
-        default:
-            code = common_option(letter, argv, &json);
-        }
-    if (code == CLI_OK)
-        code = operand_count(argc, argv, 1, "one NURBS file");
-    if (code == CLI_OK && !request.output)
-        code = cli_usage("no output file: give -o LINES.svg");
+    const tool_option options[] = {{"stations", OPTION_COUNT, &request.stations, 0, 1000},
+                                   {"waterlines", OPTION_COUNT, &request.waterlines, 0, 1000},
+                                   {"buttocks", OPTION_COUNT, &request.buttocks, 0, 1000},
+                                   {"level", OPTION_NUMBER, &request.level, 0, 0},
+                                   {"output", OPTION_OUTPUT, &request.output, 0, 0}};
+    int code = parse_options(argc, argv, OPTION_COUNT_OF(options), options, one_file, &json);
     return code == CLI_OK ? plot(argv[optind], &request, json) : code;
 }
 

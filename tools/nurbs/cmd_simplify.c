@@ -1,19 +1,26 @@
 #include "nurbs_tool.h"
 
-static int simplify_all(const nurbs_patches *patches, double tolerance, const char *output,
-                        bool json)
+static int simplify_all(const nurbs_patches *patches, double tolerance, bool geometric,
+                        const char *output, bool json)
 {
     nurbs_patches *light = NULL;
     json_t *sizes = json_array();
     double worst = 0;
-    nurbs_status status = nurbs_patches_create(&light);
+    nurbs_status status = start_patches(patches, &light);
     for (size_t k = 0; k < nurbs_patches_count(patches) && status == NURBS_OK; k++) {
         nurbs_surface *surface = NULL;
         double bound = 0;
-        status = nurbs_surface_simplify(nurbs_patches_get(patches, k), tolerance,
-                                        NURBS_KEEP_EDGES | NURBS_THRIFTY, &surface, &bound);
+        const nurbs_surface *full = nurbs_patches_get(patches, k);
+        if (geometric)
+            status = nurbs_surface_simplify_geometric(full, tolerance, NURBS_KEEP_EDGES, &surface,
+                                                      &bound);
+        else
+            status = nurbs_surface_simplify(full, tolerance, NURBS_KEEP_EDGES | NURBS_THRIFTY,
+                                            &surface, &bound);
+        /* The geometric mode has a parametrisation of its own. */
         if (status == NURBS_OK)
-            status = nurbs_patches_add(light, surface);
+            status = geometric ? nurbs_patches_add(light, surface)
+                               : add_with_parameters(surface, patches, k, light);
         if (status == NURBS_OK) {
             worst = bound > worst ? bound : worst;
             json_array_append_new(sizes,
@@ -28,16 +35,6 @@ static int simplify_all(const nurbs_patches *patches, double tolerance, const ch
         nurbs_surface_free(surface);
     }
     if (status == NURBS_OK)
-        status = nurbs_patches_set_note(light, nurbs_patches_note(patches));
-    if (status == NURBS_OK)
-        status = nurbs_patches_set_length(light, nurbs_patches_length(patches));
-    for (size_t k = 0; k < nurbs_patches_count(patches) && status == NURBS_OK; k++) {
-        const double *u, *v;
-        size_t rows = nurbs_patches_parameters(patches, k, 0, &u),
-               columns = nurbs_patches_parameters(patches, k, 1, &v);
-        status = nurbs_patches_set_parameters(light, k, rows, u, columns, v);
-    }
-    if (status == NURBS_OK)
         status = nurbs_patches_write(light, output);
     int code = status == NURBS_OK ? CLI_OK : library_failure();
     if (code == CLI_OK && json)
@@ -50,45 +47,31 @@ static int simplify_all(const nurbs_patches *patches, double tolerance, const ch
 
 static int run(int argc, char **argv)
 {
-    static const struct option options[] = {{"tolerance", required_argument, NULL, 't'},
-                                            {"output", required_argument, NULL, 'o'},
-                                            COMMON_OPTIONS,
-                                            END_OF_OPTIONS};
     double tolerance = 0;
     const char *output = NULL;
-    bool json = false;
-    int letter, code = CLI_OK;
-    while (code == CLI_OK && (letter = getopt_long(argc, argv, ":o:", options, NULL)) != -1)
-        switch (letter) {
-        case 't':
-            code = length_option("tolerance", optarg, &tolerance);
-            break;
-        case 'o':
-            output = optarg;
-            break;
-        default:
-            code = common_option(letter, argv, &json);
-        }
-    if (code == CLI_OK)
-        code = operand_count(argc, argv, 1, "one NURBS file");
+    bool geometric = false, json = false;
+    const tool_option options[] = {{"tolerance", OPTION_LENGTH, &tolerance, 0, 0},
+                                   {"geometric", OPTION_FLAG, &geometric, 0, 0},
+                                   {"output", OPTION_OUTPUT, &output, 0, 0}};
+    int code = parse_options(argc, argv, OPTION_COUNT_OF(options), options, one_file, &json);
     if (code == CLI_OK && !(tolerance > 0))
         code = cli_usage("no tolerance: give --tolerance T");
-    if (code == CLI_OK && !output)
-        code = cli_usage("no output file: give -o FILE");
     if (code != CLI_OK)
         return code;
     nurbs_patches *patches = NULL;
     code = load_patches(argv[optind], &patches);
     if (code == CLI_OK)
-        code = simplify_all(patches, tolerance, output, json);
+        code = simplify_all(patches, tolerance, geometric, output, json);
     nurbs_patches_free(patches);
     return code;
 }
 
 const subcommand simplify_command = {
     "simplify", "drop control points within a certified tolerance", run,
-    "usage: nurbs simplify FILE --tolerance T -o FILE\n"
+    "usage: nurbs simplify FILE --tolerance T -o FILE [--geometric]\n"
     "  Removes knots of every patch while it moves by less than T metres; edges in coordinate\n"
     "  planes stay in them.\n"
     "  --tolerance T  metres\n"
+    "  --geometric    keep the shape rather than the parametrisation: evens out wobbling\n"
+    "                 parameters first; slower, fewer points on uneven surfaces\n"
     "  -o, --output FILE\n"};

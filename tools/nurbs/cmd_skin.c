@@ -33,50 +33,22 @@ static int parametrization_option(const char *text, nurbs_parametrization *kind)
 
 static int parse(int argc, char **argv, struct request *request)
 {
-    static const struct option options[] = {{"degree", required_argument, NULL, 'd'},
-                                            {"parametrize", required_argument, NULL, 'p'},
-                                            {"kink-angle", required_argument, NULL, 'k'},
-                                            {"tolerance", required_argument, NULL, 't'},
-                                            {"lpp", required_argument, NULL, 'l'},
-                                            {"note", required_argument, NULL, 'n'},
-                                            {"output", required_argument, NULL, 'o'},
-                                            COMMON_OPTIONS,
-                                            END_OF_OPTIONS};
-    int letter, code = CLI_OK;
-    double degrees;
-    while (code == CLI_OK && (letter = getopt_long(argc, argv, ":o:", options, NULL)) != -1)
-        switch (letter) {
-        case 'd':
-            if (!cli_parse_int(optarg, &request->skin.degree) || request->skin.degree < 1 ||
-                request->skin.degree > 5)
-                code = cli_usage("--degree '%s': expected 1 to 5", optarg);
-            break;
-        case 'p':
-            code = parametrization_option(optarg, &request->skin.parametrize);
-            break;
-        case 'k':
-            code = number_option("kink-angle", optarg, &degrees);
-            request->skin.kink_angle = degrees * 3.14159265358979323846 / 180;
-            break;
-        case 't':
-            code = length_option("tolerance", optarg, &request->tolerance);
-            break;
-        case 'l':
-            code = length_option("lpp", optarg, &request->length);
-            break;
-        case 'n':
-            request->note = optarg;
-            break;
-        case 'o':
-            request->output = optarg;
-            break;
-        default:
-            code = common_option(letter, argv, &request->json);
-        }
-    if (code == CLI_OK)
-        code = operand_count(argc, argv, 1, "one grid file");
-    if (code == CLI_OK && !request->output)
-        code = cli_usage("no output file: give -o FILE");
+    size_t degree = (size_t)request->skin.degree;
+    double degrees = request->skin.kink_angle * 180 / 3.14159265358979323846;
+    const char *kind = NULL;
+    const tool_option options[] = {{"degree", OPTION_COUNT, &degree, 1, 5},
+                                   {"parametrize", OPTION_TEXT, &kind, 0, 0},
+                                   {"kink-angle", OPTION_NUMBER, &degrees, 0, 0},
+                                   {"tolerance", OPTION_LENGTH, &request->tolerance, 0, 0},
+                                   {"lpp", OPTION_LENGTH, &request->length, 0, 0},
+                                   {"note", OPTION_TEXT, &request->note, 0, 0},
+                                   {"output", OPTION_OUTPUT, &request->output, 0, 0}};
+    const operands grid = {1, 1, "one grid file"};
+    int code = parse_options(argc, argv, OPTION_COUNT_OF(options), options, grid, &request->json);
+    if (code == CLI_OK && kind)
+        code = parametrization_option(kind, &request->skin.parametrize);
+    request->skin.degree = (int)degree;
+    request->skin.kink_angle = degrees * 3.14159265358979323846 / 180;
     return code;
 }
 

@@ -2,39 +2,15 @@
 
 static int run(int argc, char **argv)
 {
-    static const struct option options[] = {{"level", required_argument, NULL, 'z'},
-                                            {"tolerance", required_argument, NULL, 't'},
-                                            {"patch", required_argument, NULL, 'k'},
-                                            {"output", required_argument, NULL, 'o'},
-                                            COMMON_OPTIONS,
-                                            END_OF_OPTIONS};
     double level = 0, tolerance = 1e-4;
     size_t index = 0;
     const char *output = NULL;
     bool json = false;
-    int letter, code = CLI_OK;
-    while (code == CLI_OK && (letter = getopt_long(argc, argv, ":o:", options, NULL)) != -1)
-        switch (letter) {
-        case 'z':
-            code = number_option("level", optarg, &level);
-            break;
-        case 't':
-            code = length_option("tolerance", optarg, &tolerance);
-            break;
-        case 'k':
-            if (!cli_parse_size(optarg, &index))
-                code = cli_usage("--patch '%s': expected a number from 0", optarg);
-            break;
-        case 'o':
-            output = optarg;
-            break;
-        default:
-            code = common_option(letter, argv, &json);
-        }
-    if (code == CLI_OK)
-        code = operand_count(argc, argv, 1, "one NURBS file");
-    if (code == CLI_OK && !output)
-        code = cli_usage("no output file: give -o FILE");
+    const tool_option options[] = {{"level", OPTION_NUMBER, &level, 0, 0},
+                                   {"tolerance", OPTION_LENGTH, &tolerance, 0, 0},
+                                   PATCH_OPTION(&index),
+                                   {"output", OPTION_OUTPUT, &output, 0, 0}};
+    int code = parse_options(argc, argv, OPTION_COUNT_OF(options), options, one_file, &json);
     if (code != CLI_OK)
         return code;
     nurbs_patches *patches = NULL;

@@ -17,29 +17,46 @@ typedef struct subcommand {
 
 extern const subcommand make_command, info_command, eval_command, skin_command, fit_command,
     grid_command, simplify_command, wetted_command, hydrostatics_command, convert_command,
-    plot_command;
+    plot_command, edit_command, closest_command, cut_command, moments_command;
 
-/* Options every subcommand takes, at the end of its getopt_long table. */
-#define COMMON_OPTIONS                                                                             \
-    {"json", no_argument, NULL, 'J'},                                                              \
+/* What the value of an option is, and where it goes. */
+typedef enum option_kind {
+    OPTION_NUMBER, /* double */
+    OPTION_LENGTH, /* double > 0, metres */
+    OPTION_COUNT,  /* size_t from least to most */
+    OPTION_TEXT,   /* const char * */
+    OPTION_OUTPUT, /* const char *, also -o; must be given */
+    OPTION_FLAG    /* bool, no value */
+} option_kind;
+
+typedef struct tool_option {
+    const char *name;
+    option_kind kind;
+    void *value;
+    size_t least, most; /* of a count */
+} tool_option;
+
+#define OPTION_COUNT_OF(options) (sizeof(options) / sizeof((options)[0]))
+
+/* The option --patch K. */
+#define PATCH_OPTION(value)                                                                        \
     {                                                                                              \
-        "threads", required_argument, NULL, 'T'                                                    \
-    }
-#define END_OF_OPTIONS                                                                             \
-    {                                                                                              \
-        NULL, 0, NULL, 0                                                                           \
+        "patch", OPTION_COUNT, value, 0, 1000000                                                   \
     }
 
-/* Handles a letter of getopt_long that the subcommand does not know itself: CLI_OK, or the exit
- * code after a message. */
-int common_option(int letter, char **argv, bool *json);
+/* How many operands follow the options; `what` names them all. */
+typedef struct operands {
+    int least, most;
+    const char *what;
+} operands;
 
-/* Options whose value is a number: CLI_OK or CLI_USAGE after a message. */
-int number_option(const char *name, const char *text, double *value);
-int length_option(const char *name, const char *text, double *value);
+static const operands one_file = {1, 1, "one NURBS file"};
 
-/* Checks that exactly n operands follow the options; `what` names them all. */
-int operand_count(int argc, char **argv, int n, const char *what);
+/* Reads the options of a subcommand and those of every one (--json, --threads N), checks the
+ * operands and that the output file is named: CLI_OK, or CLI_USAGE after a message. The operands
+ * begin at argv[optind]. */
+int parse_options(int argc, char **argv, size_t n, const tool_option *own, operands wanted,
+                  bool *json);
 
 /* One JSON object on standard output; steals the reference. */
 int print_json(json_t *object);
@@ -52,8 +69,14 @@ int load_patches(const char *path, nurbs_patches **patches);
 int load_surface(const char *path, size_t index, nurbs_patches **patches,
                  const nurbs_surface **surface);
 
-/* Writes one surface, or several patches, by extension, with the length and note of `from` (NULL:
- * none). */
+/* Creates an empty set of patches with the length and note of `from` (NULL: none). */
+nurbs_status start_patches(const nurbs_patches *from, nurbs_patches **patches);
+
+/* Adds a surface that stands for patch `index` of `from`, with its design grid's parameters. */
+nurbs_status add_with_parameters(const nurbs_surface *surface, const nurbs_patches *from,
+                                 size_t index, nurbs_patches *patches);
+
+/* Writes one surface by extension, with the length and note of `from` (NULL: none). */
 int save_surface(const nurbs_surface *surface, const nurbs_patches *from, const char *path);
 
 /* Largest distance from the grid to the surface at u x v. */
