@@ -12,6 +12,11 @@ galv_status galv_extra_change(const galv_extra *extra, size_t npoints, const dou
 {
     if (!extra || !extra->evaluate || !d || !values)
         return galv_fail(GALV_ERROR_ARGUMENT, "quantities, displacement and result must be given");
+    if (extra->given)
+        return galv_fail(GALV_ERROR_ARGUMENT,
+                         "%zu of the appended quantities are known for samples only, not for any "
+                         "displacement",
+                         extra->given);
     galv_status status = galv_points_check(npoints, xyz);
     if (status)
         return status;
@@ -60,8 +65,7 @@ galv_status galv_extra_balance(const galv_shape *shape, size_t npoints, const do
                                galv_sampling sampling, const galv_extra *extra, double share,
                                double *weights)
 {
-    if (!shape || !extra || !extra->evaluate || extra->count == 0 || !weights ||
-        sampling.count == 0)
+    if (!shape || !extra || extra->count == 0 || !weights || sampling.count == 0)
         return galv_fail(GALV_ERROR_ARGUMENT,
                          "shape, samples, quantities and weights must be given");
     if (!(share > 0) || !isfinite(share))

@@ -145,7 +145,8 @@ static int evaluate(void *context, size_t npoints, const double *xyz, double *va
     if (galv_moments(set->sections, set->girth, xyz, set->order, values))
         return 2;
     values += galv_moments_count(set->order);
-    for (size_t i = 0; set->section_stride && i < set->sections; i += set->section_stride) {
+    for (size_t i = set->section_first; set->section_stride && i < set->sections;
+         i += set->section_stride) {
         if (galv_section_moments(set->girth, xyz + 3 * i * set->girth, set->section_order, values))
             return 3;
         values += section_count(set->section_order);
@@ -156,8 +157,8 @@ static int evaluate(void *context, size_t npoints, const double *xyz, double *va
 galv_extra galv_moments_extra(galv_moment_set *set)
 {
     size_t count = galv_moments_count(set->order);
-    if (set->section_stride)
-        count += (set->sections + set->section_stride - 1) / set->section_stride *
+    if (set->section_stride && set->section_first < set->sections)
+        count += (1 + (set->sections - 1 - set->section_first) / set->section_stride) *
                  section_count(set->section_order);
     return (galv_extra){.count = count, .evaluate = evaluate, .context = set, .concurrent = true};
 }

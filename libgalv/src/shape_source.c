@@ -40,17 +40,33 @@ static void keep_first(struct failure *failure, galv_status status, size_t row)
 static galv_status evaluate_extra(const galv_extra *extra, size_t npoints, const double *moved,
                                   double *values)
 {
-    int refused = extra->evaluate(extra->context, npoints, moved, values);
+    size_t evaluated = extra->count - extra->given;
+    int refused = evaluated ? extra->evaluate(extra->context, npoints, moved, values) : 0;
     if (refused)
         return galv_fail(GALV_ERROR_NUMERIC, "the appended quantities gave %d", refused);
-    for (size_t i = 0; i < extra->count; i++)
+    for (size_t i = 0; i < evaluated; i++)
         if (!isfinite(values[i]))
             return galv_fail(GALV_ERROR_NUMERIC, "appended quantity %zu is %g", i, values[i]);
     return GALV_OK;
 }
 
-/* The changes of the appended quantities, behind the stored coordinates of each row. */
-static galv_status append(const galv_shape_source *source, size_t count, double *rows, size_t *bad)
+static galv_status copy_given(const galv_extra *extra, size_t sample, double *values)
+{
+    size_t evaluated = extra->count - extra->given;
+    for (size_t i = 0; i < extra->given; i++) {
+        double value = extra->values[sample * extra->given + i];
+        if (!isfinite(value))
+            return galv_fail(GALV_ERROR_NUMERIC, "appended quantity %zu is %g", evaluated + i,
+                             value);
+        values[evaluated + i] = value;
+    }
+    return GALV_OK;
+}
+
+/* The changes of the appended quantities, behind the stored coordinates of each row; the first row
+ * is sample `first`. */
+static galv_status append(const galv_shape_source *source, size_t first, size_t count, double *rows,
+                          size_t *bad)
 {
     const galv_plan *plan = source->plan;
     const galv_extra *extra = source->extra;
@@ -63,8 +79,10 @@ static galv_status append(const galv_shape_source *source, size_t count, double 
         for (size_t s = 0; s < plan->stored; s++)
             moved[plan->index[s]] += row[s];
         status = evaluate_extra(extra, source->npoints, moved, values);
-        for (size_t i = 0; i < extra->count && !status; i++)
+        for (size_t i = 0; i < extra->count - extra->given && !status; i++)
             values[i] -= source->parent[i];
+        if (!status)
+            status = copy_given(extra, first + r, values);
         if (status)
             *bad = r;
     }
@@ -72,11 +90,11 @@ static galv_status append(const galv_shape_source *source, size_t count, double 
     return status;
 }
 
-static galv_status task_rows(const galv_shape_source *source, size_t count, const double *x,
-                             double *rows, size_t *bad)
+static galv_status task_rows(const galv_shape_source *source, size_t first, size_t count,
+                             const double *x, double *rows, size_t *bad)
 {
     galv_status status = source->plan->rows(source->plan, count, x, rows, source->head.stored, bad);
-    return status || !source->extra ? status : append(source, count, rows, bad);
+    return status || !source->extra ? status : append(source, first, count, rows, bad);
 }
 
 static galv_status shape_rows(galv_source *head, size_t first, size_t count, double *rows)
@@ -91,8 +109,8 @@ static galv_status shape_rows(galv_source *head, size_t first, size_t count, dou
 #pragma omp parallel for schedule(dynamic) if (concurrent)
     for (size_t begin = 0; begin < count; begin += task) {
         size_t rest = count - begin, bad = 0;
-        galv_status status = task_rows(source, rest < task ? rest : task, source->x + begin * n,
-                                       rows + begin * stored, &bad);
+        galv_status status = task_rows(source, first + begin, rest < task ? rest : task,
+                                       source->x + begin * n, rows + begin * stored, &bad);
         if (status) {
 #pragma omp critical(galv_shape_rows)
             keep_first(&failure, status, first + begin + bad);
@@ -107,6 +125,12 @@ static galv_status start_extra(galv_shape_source *source)
 {
     const galv_extra *extra = source->extra;
     size_t planned = source->plan->stored;
+    if (extra->given > extra->count || (extra->given && !extra->values) ||
+        (extra->given < extra->count && !extra->evaluate))
+        return galv_fail(GALV_ERROR_ARGUMENT,
+                         "%zu of %zu appended quantities are given per sample, but their values or "
+                         "the function that evaluates the others is missing",
+                         extra->given, extra->count);
     source->index = malloc((planned + extra->count) * sizeof *source->index);
     source->parent = malloc((extra->count + 1) * sizeof *source->parent);
     if (!source->index || !source->parent)

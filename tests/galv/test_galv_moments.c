@@ -163,6 +163,67 @@ static void test_appended_moments(void)
     galv_shape_free(shape);
 }
 
+/* Moments of the hull and of sections evaluated by the library, and those of the hull evaluated
+ * with those of the sections handed in as numbers: the same rows, so the same spectrum. */
+static void test_given_quantities(void)
+{
+    enum { COUNT = 60, HULL = 4, SECTION = 3, MOST = 20 };
+    double xyz[3 * POINTS], weights[MOST], change[MOST];
+    fixture_grid(xyz);
+    galv_shape *shape = fixture_shape(GALV_RECURSIVE, 0.03);
+    galv_moment_set both = {.sections = SECTIONS,
+                            .girth = GIRTH,
+                            .order = 1,
+                            .section_order = 1,
+                            .section_first = 4,
+                            .section_stride = SECTIONS / 2};
+    galv_moment_set hull = {.sections = SECTIONS, .girth = GIRTH, .order = 1};
+    galv_extra evaluated = galv_moments_extra(&both), given = galv_moments_extra(&hull);
+    CU_ASSERT_EQUAL_FATAL(given.count, HULL);
+    size_t rest = evaluated.count - HULL;
+    CU_ASSERT_TRUE_FATAL(rest % SECTION == 0 && rest > 0 && evaluated.count <= MOST);
+    galv_sampling sampling = galv_uniform(COUNT, 5);
+    CU_ASSERT_EQUAL_FATAL(
+        galv_extra_balance(shape, POINTS, xyz, sampling, &evaluated, 0.5, weights), GALV_OK);
+    double *values = malloc(COUNT * rest * sizeof *values);
+    for (size_t r = 0; r < COUNT; r++) {
+        double x[FUNCTIONS], d[3 * POINTS];
+        galv_uniform_sample(5, r, FUNCTIONS, galv_shape_lower(shape), galv_shape_upper(shape), x);
+        galv_shape_displace(shape, POINTS, xyz, x, d);
+        CU_ASSERT_EQUAL(galv_extra_change(&evaluated, POINTS, xyz, d, change), GALV_OK);
+        memcpy(values + r * rest, change + HULL, rest * sizeof *values);
+    }
+    given.count += rest;
+    given.given = rest;
+    given.values = values;
+    evaluated.weights = given.weights = weights;
+    galv_options options;
+    galv_options_init(&options);
+    galv_model *model[2] = {NULL, NULL};
+    for (int k = 0; k < 2; k++) {
+        options.extra = k ? &given : &evaluated;
+        CU_ASSERT_EQUAL_FATAL(galv_build(shape, POINTS, xyz, sampling, &options, &model[k]),
+                              GALV_OK);
+    }
+    CU_ASSERT_EQUAL(galv_model_modes(model[0]), galv_model_modes(model[1]));
+    for (size_t k = 0; k < galv_model_modes(model[0]); k++)
+        CHECK_RELATIVE(galv_model_eigenvalues(model[1])[k], galv_model_eigenvalues(model[0])[k],
+                       1e-12);
+    CHECK_RELATIVE(galv_model_retained_geometry(model[1]), galv_model_retained_geometry(model[0]),
+                   1e-12);
+    CU_ASSERT_EQUAL(galv_extra_change(&given, POINTS, xyz, xyz, change), GALV_ERROR_ARGUMENT);
+    values[37 * rest + 1] = NAN;
+    galv_model *none = NULL;
+    CU_ASSERT_EQUAL(galv_build(shape, POINTS, xyz, sampling, &options, &none), GALV_ERROR_NUMERIC);
+    CU_ASSERT_PTR_NOT_NULL(strstr(galv_last_error(), "sample 37"));
+    given.values = NULL;
+    CU_ASSERT_EQUAL(galv_build(shape, POINTS, xyz, sampling, &options, &none), GALV_ERROR_ARGUMENT);
+    galv_model_free(model[0]);
+    galv_model_free(model[1]);
+    free(values);
+    galv_shape_free(shape);
+}
+
 /* Modes found with moments appended predict the volume better than as many without. */
 static void test_moments_supervise(void)
 {
@@ -211,6 +272,7 @@ static const struct check_case cases[] = {
     {"moments converge with the grid", test_moments_converge},
     {"moments of a section", test_section_moments},
     {"appended moments equal a dense SVD", test_appended_moments},
+    {"quantities known to the caller", test_given_quantities},
     {"appended moments supervise the modes", test_moments_supervise},
 };
 

@@ -204,6 +204,28 @@ static void test_moments_and_lattice(void)
     CU_ASSERT_EQUAL(number(root, "coordinates"), 3 * SECTIONS * GIRTH + 4);
     CU_ASSERT_TRUE(number(root, "retained_geometry") != number(root, "retained"));
     json_decref(root);
+    FILE *stream = fopen(scratch("q.csv"), "w");
+    fputs("resistance,cost\n", stream);
+    for (int r = 0; r < 300; r++)
+        fprintf(stream, "%.17g,%.17g\n", sin(r), cos(3 * r));
+    fclose(stream);
+    root = run_json("reduce --hull hull.csv --shape shape.yaml --random 300 --moments 1 "
+                    "--section-moments 1:4:6 --rows q.csv --variance 0.9999 -o rows.h5 --json");
+    CU_ASSERT_EQUAL(number(root, "coordinates"), 3 * SECTIONS * GIRTH + 4 + 2 * 3 + 2);
+    CU_ASSERT_TRUE(number(root, "retained_geometry") > 0.9);
+    json_decref(root);
+    root = run_json("info rows.h5 --json");
+    CU_ASSERT_EQUAL(number(root, "coordinates"), 3 * SECTIONS * GIRTH + 4 + 2 * 3 + 2);
+    json_decref(root);
+    expect("reconstruct rows.h5 --latent 0.01 -o moved.csv", 0, NULL);
+    expect("project rows.h5 --hull moved.csv", 1, "known for samples only");
+    expect("reduce --hull hull.csv --shape shape.yaml --random 30 --rows q.csv", 1, "30 samples");
+    expect("reduce --hull hull.csv --shape shape.yaml --random 30 --section-moments 1:20:5", 1,
+           "section 20");
+    expect("reduce --hull hull.csv --shape shape.yaml --random 30 --section-moments 1:2", 2,
+           "ORDER:FIRST:STRIDE");
+    expect("reduce --hull hull.csv --shape shape.yaml --random 30 --section-moments 1:2:3:4:5", 2,
+           "ORDER:FIRST:STRIDE");
     scratch_write("p.csv", "0.01,0,0,0\n0.01,0,0,0\n");
     root = run_json("project moments.h5 --parameters 0.01,0.002 --json");
     json_decref(root);

@@ -75,9 +75,9 @@ static int print_text(const struct model_file *file)
         printf(" (uniform, seed %zu)", file->seed);
     printf("%s, %s method\n", d.centred ? ", centred" : "", method_name(d.method));
     printf("%zu modes retain %.3f %% of %.6g m^2", d.modes, 100 * d.retained, d.trace);
-    if (file->moments)
-        printf(" with moments up to order %zu, %.3f %% of the points' variance", file->moment_order,
-               100 * d.retained_geometry);
+    if (d.coordinates > 3 * d.points)
+        printf(" with %zu appended quantities, %.3f %% of the points' variance",
+               d.coordinates - 3 * d.points, 100 * d.retained_geometry);
     if (isfinite(d.confidence.retained_error))
         printf("\nstandard error of the retained share %.3f %%, greatest angle to the modes of %s: "
                "%.2f degrees",

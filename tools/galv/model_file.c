@@ -101,7 +101,11 @@ static bool write_all(hid_t h5, const struct model_file *file)
               h5_write_count(h5, "uniform", file->uniform) &&
               h5_write_count(h5, "seed", file->seed) && h5_write_count(h5, "drawn", file->drawn) &&
               h5_write_count(h5, "moments", file->moments) &&
-              h5_write_count(h5, "moment_order", file->moment_order);
+              h5_write_count(h5, "moment_order", file->set.order) &&
+              h5_write_count(h5, "section_order", file->set.section_order) &&
+              h5_write_count(h5, "section_first", file->set.section_first) &&
+              h5_write_count(h5, "section_stride", file->set.section_stride) &&
+              h5_write_count(h5, "rows", file->rows);
     if (shape >= 0)
         H5Gclose(shape);
     return ok;
@@ -315,10 +319,39 @@ static bool read_shape(struct reader *r, size_t parameters, struct shape_definit
     return !r->wrong && read_table(r, shape);
 }
 
+/* A number that files written before there was such a thing do not have. */
+static size_t newer_count(struct reader *r, const char *name, size_t otherwise)
+{
+    size_t value;
+    return h5_read_count(r->h5, name, &value) ? value : otherwise;
+}
+
+static bool read_appended(struct reader *r, struct model_file *file)
+{
+    size_t moments = 0, order = 0, section_order = newer_count(r, "section_order", 0);
+    count(r, "moments", &moments);
+    count(r, "moment_order", &order);
+    file->moments = moments != 0;
+    file->rows = newer_count(r, "rows", 0);
+    file->set = (galv_moment_set){.sections = file->sections,
+                                  .girth = file->girth,
+                                  .order = order <= 8 ? (unsigned)order : 9,
+                                  .section_order = section_order <= 8 ? (unsigned)section_order : 9,
+                                  .section_first = newer_count(r, "section_first", 0),
+                                  .section_stride = newer_count(r, "section_stride", 0)};
+    galv_moment_set set;
+    if (!r->wrong &&
+        (file->set.order > 8 || file->set.section_order > 8 || file->rows > MOST_NUMBERS ||
+         model_file_extra(file, &set).count !=
+             galv_model_coordinates(file->model) - 3 * galv_model_points(file->model)))
+        r->wrong = "moments";
+    return !r->wrong;
+}
+
 static bool read_all(struct reader *r, struct model_file *file)
 {
     char format[32] = "";
-    size_t version = 0, uniform = 0, moments = 0;
+    size_t version = 0, uniform = 0;
     if (!h5_read_text(r->h5, "format", format, sizeof format) ||
         strcmp(format, "galv-model") != 0) {
         r->wrong = "format";
@@ -332,23 +365,20 @@ static bool read_all(struct reader *r, struct model_file *file)
     count(r, "girth", &file->girth);
     count(r, "uniform", &uniform);
     count(r, "seed", &file->seed);
-    count(r, "moments", &moments);
-    count(r, "moment_order", &file->moment_order);
     file->uniform = uniform != 0;
-    file->moments = moments != 0;
     if (!r->wrong && !h5_read_text(r->h5, "hull", file->hull, sizeof file->hull))
         r->wrong = "hull";
     if (r->wrong || !read_model(r, &file->model))
         return false;
-    /* Files written before models could grow have no count of their own. */
-    if (!h5_read_count(r->h5, "drawn", &file->drawn))
-        file->drawn = file->uniform ? galv_model_samples(file->model) : 0;
+    file->drawn = newer_count(r, "drawn", file->uniform ? galv_model_samples(file->model) : 0);
     size_t points = galv_model_points(file->model);
     if (file->sections > points || file->girth > points ||
-        (file->girth && file->sections * file->girth != points) || file->moment_order > 8) {
+        (file->girth && file->sections * file->girth != points)) {
         r->wrong = "sections";
         return false;
     }
+    if (!read_appended(r, file))
+        return false;
     hid_t group = H5Gopen2(r->h5, "shape", H5P_DEFAULT);
     if (group < 0) {
         r->wrong = "shape";
@@ -391,9 +421,11 @@ void model_file_free(struct model_file *file)
 
 galv_extra model_file_extra(const struct model_file *file, galv_moment_set *set)
 {
-    if (!file->moments)
-        return (galv_extra){.count = 0};
-    *set = (galv_moment_set){
-        .sections = file->sections, .girth = file->girth, .order = (unsigned)file->moment_order};
-    return galv_moments_extra(set);
+    galv_extra extra = {.count = 0};
+    *set = file->set;
+    if (file->moments)
+        extra = galv_moments_extra(set);
+    extra.count += file->rows;
+    extra.given = file->rows;
+    return extra;
 }

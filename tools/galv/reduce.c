@@ -8,16 +8,16 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Samples that settle the weights of appended moments. */
+/* Samples that settle the weights of appended quantities. */
 enum { PILOT = 500 };
 
 /* Everything a run holds. */
 struct reduction {
     struct hull hull;
-    double *weights, *moment_weights;
+    double *weights, *extra_weights;
     struct shape_definition definition;
     galv_shape *shape;
-    struct cli_table samples;
+    struct cli_table samples, rows;
     galv_moment_set set;
     galv_extra extra;
     galv_model *model;
@@ -27,10 +27,11 @@ static void reduction_free(struct reduction *r)
 {
     hull_free(&r->hull);
     free(r->weights);
-    free(r->moment_weights);
+    free(r->extra_weights);
     shape_definition_free(&r->definition);
     galv_shape_free(r->shape);
     cli_table_free(&r->samples);
+    cli_table_free(&r->rows);
     galv_model_free(r->model);
 }
 
@@ -92,26 +93,50 @@ static galv_sampling choose_sampling(const struct reduce_options *options,
                             : galv_uniform(count, options->seed);
 }
 
-static bool add_moments(struct reduce_options *options, struct reduction *r)
+static bool load_rows(const struct reduce_options *options, struct reduction *r)
 {
-    if (!options->moments)
+    size_t samples = choose_sampling(options, r, SIZE_MAX).count;
+    if (!options->rows)
         return true;
-    r->set = (galv_moment_set){.sections = r->hull.sections,
-                               .girth = r->hull.girth,
-                               .order = (unsigned)options->moment_order};
-    r->extra = galv_moments_extra(&r->set);
-    r->moment_weights = malloc(r->extra.count * sizeof *r->moment_weights);
-    if (!r->moment_weights) {
+    if (!cli_table_read(options->rows, &r->rows))
+        return false;
+    if (r->rows.rows == samples && r->rows.columns > 0)
+        return true;
+    cli_fail("%s: %zu rows, expected one for each of the %zu samples", options->rows, r->rows.rows,
+             samples);
+    return false;
+}
+
+/* Moments, then given rows. */
+static bool append_quantities(struct reduce_options *options, struct reduction *r)
+{
+    if (!options->moments && !options->rows)
+        return true;
+    r->set = options->set;
+    r->set.sections = r->hull.sections;
+    r->set.girth = r->hull.girth;
+    if (options->moments && r->set.section_stride && r->set.section_first >= r->set.sections) {
+        cli_fail("--section-moments: section %zu of a hull of %zu", r->set.section_first + 1,
+                 r->set.sections);
+        return false;
+    }
+    if (options->moments)
+        r->extra = galv_moments_extra(&r->set);
+    r->extra.given = r->rows.columns;
+    r->extra.values = r->rows.values;
+    r->extra.count += r->extra.given;
+    r->extra_weights = malloc(r->extra.count * sizeof *r->extra_weights);
+    if (!r->extra_weights) {
         cli_fail("out of memory");
         return false;
     }
     if (galv_extra_balance(r->shape, r->hull.npoints, r->hull.xyz,
-                           choose_sampling(options, r, PILOT), &r->extra, options->moment_share,
-                           r->moment_weights)) {
+                           choose_sampling(options, r, PILOT), &r->extra, options->share,
+                           r->extra_weights)) {
         cli_fail("%s", galv_last_error());
         return false;
     }
-    r->extra.weights = r->moment_weights;
+    r->extra.weights = r->extra_weights;
     options->build.extra = &r->extra;
     return true;
 }
@@ -152,7 +177,8 @@ static bool write_model(const struct reduce_options *options, const struct reduc
                               .seed = options->seed,
                               .drawn = options->random,
                               .moments = options->moments,
-                              .moment_order = options->moment_order};
+                              .set = r->set,
+                              .rows = r->rows.columns};
     snprintf(file.hull, sizeof file.hull, "%s", options->hull);
     return model_file_write(options->output, &file);
 }
@@ -168,8 +194,8 @@ int command_reduce(int argc, char **argv)
     struct reduction r = {.model = NULL};
     double seconds = 0;
     bool ok = load_hull(&options, &r) && load_shape(&options, &r) && load_samples(&options, &r) &&
-              add_moments(&options, &r) && build(&options, &r, &seconds) &&
-              write_model(&options, &r);
+              load_rows(&options, &r) && append_quantities(&options, &r) &&
+              build(&options, &r, &seconds) && write_model(&options, &r);
     result = CLI_FAILED;
     if (ok)
         result = options.json ? reduce_print_json(r.model, &options, seconds)

@@ -14,11 +14,11 @@ struct reduce_options {
     uint64_t seed;
     galv_options build;
     bool area_weights, json;
-    bool moments; /* append moments of the hull up to moment_order, with moment_share of the
-                     variance */
-    size_t moment_order;
-    double moment_share;
-    int threads; /* 0: as the environment says */
+    bool moments;        /* append those of `set` (but for the size of its grid) */
+    galv_moment_set set; /* orders and sections */
+    const char *rows;    /* CSV of quantities to append, one line per sample; NULL: none */
+    double share;        /* variance of all that is appended, relative to the points' */
+    int threads;         /* 0: as the environment says */
 };
 
 /* Fills the options from the command line. Returns -1 to go on, else the exit code. */

@@ -26,8 +26,16 @@ static const char help[] =
     "  --spectrum K       report at least K eigenvalues (default 64)\n"
     "  --centre           subtract the mean of the samples\n"
     "  --weights KIND     equal (default), or area: of the cells around each grid point\n"
-    "  --moments ORDER    append the geometric moments of the hull up to ORDER\n"
-    "  --moment-share W   variance of the moments relative to that of the points (default 0.5)\n"
+    "  --moments ORDER    append the geometric moments of the hull up to ORDER (0: volume)\n"
+    "  --section-moments ORDER:FIRST:STRIDE\n"
+    "                     append those of sections FIRST (1 is the first), FIRST + STRIDE, ... "
+    "too\n"
+    "  --rows FILE        append other quantities, CSV with one line per sample and one column "
+    "per\n"
+    "                     quantity, as changes from the parent\n"
+    "  --moment-share W   variance of all that is appended relative to that of the points "
+    "(default\n"
+    "                     0.5); each quantity is given the same part of it\n"
     "  --method NAME      auto (default), covariance, gram, randomised or factored (linear "
     "shapes)\n"
     "  --workspace MIB    memory for matrices and blocks of samples (default 512)\n"
@@ -39,6 +47,8 @@ enum {
     HULL = 256,
     GRID,
     MOMENTS,
+    SECTION_MOMENTS,
+    ROWS,
     SHARE,
     SHAPE,
     SAMPLES,
@@ -61,6 +71,8 @@ static const struct option table[] = {
     {"hull", required_argument, NULL, HULL},
     {"grid", required_argument, NULL, GRID},
     {"moments", required_argument, NULL, MOMENTS},
+    {"section-moments", required_argument, NULL, SECTION_MOMENTS},
+    {"rows", required_argument, NULL, ROWS},
     {"moment-share", required_argument, NULL, SHARE},
     {"output", required_argument, NULL, 'o'},
     {"shape", required_argument, NULL, SHAPE},
@@ -134,6 +146,23 @@ static int parse_share(double *share)
     return -1;
 }
 
+/* Whole numbers divided by colons; cuts the argument up. */
+static int parse_section_moments(galv_moment_set *set)
+{
+    size_t part[3] = {0, 0, 0}, n = 0;
+    char *state = NULL;
+    for (char *word = strtok_r(optarg, ":", &state); word; word = strtok_r(NULL, ":", &state))
+        if (n >= 3 || !cli_parse_size(word, &part[n++]))
+            n = 4;
+    if (n != 3 || part[0] > 8 || part[1] < 1 || part[2] < 1)
+        return cli_usage("--section-moments: expected ORDER:FIRST:STRIDE, such as 1:5:10, ORDER at "
+                         "most 8");
+    set->section_order = (unsigned)part[0];
+    set->section_first = part[1] - 1;
+    set->section_stride = part[2];
+    return -1;
+}
+
 static int parse_variance(double *variance)
 {
     if (!cli_parse_double(optarg, variance) || !(*variance > 0 && *variance <= 1))
@@ -153,9 +182,17 @@ static int parse_option(int code, struct reduce_options *options)
         return parse_grid(options);
     case MOMENTS:
         options->moments = true;
-        return parse_count("moments", &options->moment_order, 0, 8);
+        if ((result = parse_count("moments", &value, 0, 8)) == -1)
+            options->set.order = (unsigned)value;
+        return result;
+    case SECTION_MOMENTS:
+        options->moments = true;
+        return parse_section_moments(&options->set);
+    case ROWS:
+        options->rows = optarg;
+        return -1;
     case SHARE:
-        return parse_share(&options->moment_share);
+        return parse_share(&options->share);
     case 'o':
         options->output = optarg;
         return -1;
@@ -206,7 +243,7 @@ static int parse_option(int code, struct reduce_options *options)
 
 int reduce_parse(int argc, char **argv, struct reduce_options *options)
 {
-    *options = (struct reduce_options){.seed = 1, .moment_share = 0.5};
+    *options = (struct reduce_options){.seed = 1, .share = 0.5};
     galv_options_init(&options->build);
     opterr = 0;
     for (int code; (code = getopt_long(argc, argv, "o:", table, NULL)) != -1;) {

@@ -67,7 +67,7 @@ int reduce_print_text(const galv_model *model, const struct reduce_options *opti
         printf(" (standard error %.3f %%)\ngreatest angle to the modes of half the samples: %.2f "
                "degrees",
                100 * confidence.retained_error, confidence.angle * 180 / 3.14159265358979323846);
-    if (options->moments)
+    if (options->moments || options->rows)
         printf("\n%.3f %% of the variance of the points alone",
                100 * galv_model_retained_geometry(model));
     printf("\n%4s %14s %12s %14s\n", "mode", "eigenvalue", "retained %", "mean sq. error");

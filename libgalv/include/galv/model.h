@@ -53,15 +53,20 @@ typedef enum galv_method {
 
 /** Quantities of the moved hull that are appended to d(x), so that modes also account for their
  * variance: geometric moments (moments.h), or anything else of physical meaning. This is the
- * shape-supervised reduction of Khan et al., Computer-Aided Design 2022, 103327. */
+ * shape-supervised reduction of Khan et al., Computer-Aided Design 2022, 103327. They are evaluated
+ * on the moved points, or the caller knows them for every sample, or both. */
 typedef struct galv_extra {
     size_t count; /**< quantities */
-    /** Fills values (count) for the moved points. Returns 0, or non-zero to report a failure. */
+    /** Fills values (count - given) for the moved points. Returns 0, or non-zero to report a
+     * failure. NULL when all are given. */
     int (*evaluate)(void *context, size_t npoints, const double *xyz, double *values);
     void *context;         /**< borrowed */
     const double *weights; /**< count weights in the inner product, > 0; borrowed. See
                               galv_extra_balance(). */
     bool concurrent;       /**< whether evaluate may run in several threads at once */
+    size_t given;          /**< how many of them, the last ones, are not evaluated but given */
+    const double *values;  /**< of the given ones: a row of `given` changes from the parent for each
+                              sample of the call; borrowed */
 } galv_extra;
 
 /** Called between blocks of samples with the fraction done, 0..1; non-zero cancels. */
@@ -127,7 +132,8 @@ GALV_API galv_status galv_extra_balance(const galv_shape *shape, size_t npoints,
                                         double share, double *weights);
 
 /** Fills values (extra->count) with the change of the appended quantities under a displacement d of
- * the parent: what follows the 3 npoints displacements in a vector of all coordinates. */
+ * the parent: what follows the 3 npoints displacements in a vector of all coordinates. Refuses
+ * quantities that are given per sample. */
 GALV_API galv_status galv_extra_change(const galv_extra *extra, size_t npoints, const double *xyz,
                                        const double *d, double *values);
 

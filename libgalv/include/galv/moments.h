@@ -45,7 +45,9 @@ typedef struct galv_moment_set {
     size_t sections, girth;
     unsigned order;         /**< of the moments of the hull */
     unsigned section_order; /**< of the moments of sections */
-    size_t section_stride;  /**< moments of sections 0, stride, 2 stride, ...; 0: none */
+    size_t section_first;   /**< moments of sections first, first + stride, ... (counted from 0; one
+                               without area, as at a stem, has none to balance) */
+    size_t section_stride;  /**< 0: none */
 } galv_moment_set;
 
 /** The moments of a set as appended quantities. set: borrowed, must outlive the result. The weights
