@@ -7,6 +7,8 @@
 
 static const double irregular_spans = 3.0;
 static const double transom_stem_factor = 1.44, stem_factor = 2.0;
+/* x_s - x_aft: this share of the length, at lower speeds 0.45 transverse wave lengths 2 pi/k0. */
+static const double stern_share = 0.35, stern_froude = 0.35;
 
 const char *igabem_formulation_name(igabem_formulation formulation)
 {
@@ -47,7 +49,7 @@ void igabem_options_init(igabem_options *options)
                                 .cutoff_angle = NAN,
                                 .cutoff_factor = 1.2,
                                 .stem_limit = NAN,
-                                .stern_length = 0.35,
+                                .stern_length = NAN,
                                 .stern_blend = 0.014,
                                 .spectrum_limit = 20.0,
                                 .tolerance = 1e-5};
@@ -94,7 +96,7 @@ static igabem_status check(const igabem_options *options)
         status = check_range("degree", options->degree, 1, 9);
     if (status == IGABEM_OK)
         status = check_range("tolerance", options->tolerance, 1e-12, 1e-2);
-    if (status == IGABEM_OK)
+    if (status == IGABEM_OK && !isnan(options->stern_length))
         status = check_range("stern_length", options->stern_length, 0.0, 1.0);
     if (status == IGABEM_OK)
         status = check_range("stern_blend", options->stern_blend, 0.0, 1.0);
@@ -141,6 +143,14 @@ static void choose_elements(const igabem_hull *hull, igabem_options *options)
             *elements[d] = own ? (int)count[d] : 0;
 }
 
+/* Waves that the stern rows make and feel among themselves are shorter than the stern part if it is
+ * longer than half a wave; kept longer it takes bow waves from rows that could bear them. */
+static double stern_by_rule(const igabem_options *options)
+{
+    double ratio = options->froude / stern_froude;
+    return ratio < 1.0 ? stern_share * ratio * ratio : stern_share;
+}
+
 igabem_status igabem_options_freeze(const igabem_hull *hull, igabem_options *options)
 {
     igabem_status status = check(options);
@@ -152,6 +162,8 @@ igabem_status igabem_options_freeze(const igabem_hull *hull, igabem_options *opt
     if (options->formulation == IGABEM_AUTOMATIC)
         options->formulation = hull->transom && hull->surface_piercing ? IGABEM_NEUMANN_KELVIN_STERN
                                                                        : IGABEM_NEUMANN_KELVIN;
+    if (isnan(options->stern_length))
+        options->stern_length = stern_by_rule(options);
     options->line_term = options->line_term && hull->surface_piercing;
     if (!hull->surface_piercing) {
         if (isnan(options->cutoff_angle))

@@ -104,6 +104,7 @@ static void test_plan(void)
     igabem_options_init(&frozen);
     frozen.froude = 0.35;
     frozen.formulation = IGABEM_NEUMANN_KELVIN_STERN;
+    frozen.stern_length = 0.35;
     size_t n = verify_plan(&config, &frozen, rows, options);
     CU_ASSERT_EQUAL(n, 1 + 4 + 2 + 1 + 2);
     CU_ASSERT_STRING_EQUAL(rows[0].group, "objective");

@@ -167,6 +167,32 @@ static void test_stern_limits(void)
     igabem_hull_free(hull);
 }
 
+/* x_s by rule: a share of the length, shorter with the waves below Fr 0.35; a given one is kept. */
+static void test_stern_rule(void)
+{
+    static const double expected[][2] = {
+        {0.20, 0.35 * 16.0 / 49.0}, {0.28, 0.224}, {0.35, 0.35}, {0.45, 0.35}};
+    igabem_hull *hull = wigley_hull(0.1, 0.0625, 1, 1);
+    for (size_t k = 0; k < sizeof expected / sizeof expected[0]; k++) {
+        igabem_options options;
+        igabem_options_init(&options);
+        options.froude = expected[k][0];
+        CU_ASSERT_EQUAL(igabem_options_freeze(hull, &options), IGABEM_OK);
+        CHECK_RELATIVE(options.stern_length, expected[k][1], 1e-14);
+        options.froude = 0.35; /* frozen: stays */
+        CU_ASSERT_EQUAL(igabem_options_freeze(hull, &options), IGABEM_OK);
+        CHECK_RELATIVE(options.stern_length, expected[k][1], 1e-14);
+        options.stern_length = 1.5;
+        CU_ASSERT_EQUAL(igabem_options_freeze(hull, &options), IGABEM_ERROR_ARGUMENT);
+    }
+    igabem_options body;
+    igabem_options_init(&body);
+    body.kernel = IGABEM_KERNEL_DOUBLE_BODY;
+    CU_ASSERT_EQUAL(igabem_options_freeze(hull, &body), IGABEM_OK);
+    CU_ASSERT(isfinite(body.stern_length));
+    igabem_hull_free(hull);
+}
+
 /* A body given whole, both sides as patches, makes the waves of the half with its image. */
 static void test_both_sides(void)
 {
@@ -279,6 +305,7 @@ static const struct check_case cases[] = {
     {"several settings at once", test_many},
     {"sensitivity to the cut-off", test_sensitivity},
     {"limits of the stern variant", test_stern_limits},
+    {"stern length by rule", test_stern_rule},
     {"both sides as patches", test_both_sides},
     {"threads", test_threads},
     {"progress and cancelling", test_progress},

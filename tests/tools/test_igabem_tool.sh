@@ -75,6 +75,13 @@ check "check of the DTMB 5415" $?
 grep -q "neumann-kelvin-stern" "$work/out"
 check "the transom chooses its formulation" $?
 
+for form in fast bulb; do
+  "$igabem" check "$hulls/$form.json" --json > "$work/json"
+  check "check of $form.json" $?
+  grep -q '"transom": true' "$work/json" && grep -q '"warning": ""' "$work/json"
+  check "$form.json has a transom and no warning" $?
+done
+
 "$igabem" solve "$hulls/wigley.json" --fr 0.35 --formulation michell --elements 12,4 --json > "$work/json"
 check "michell runs" $?
 expect_value cw 0.001247921974 1e-4

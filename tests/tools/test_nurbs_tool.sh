@@ -106,6 +106,21 @@ for body in sphere spheroid ellipsoid; do
 done
 close volume 0.015707963267948967 1e-10 # 1 x 0.2 x 0.15
 
+# Ship forms: what the examples ship, watertight at the centre plane, scaled by the length.
+for body in fast bulb; do
+    expect 0 "$nurbs" make $body -o form.json
+    cmp -s form.json "$hulls/$body.json" || fail "examples/hulls/$body.json is not what nurbs make gives"
+    expect 0 "$nurbs" hydrostatics form.json --json
+    volume=$(number volume)
+    expect 0 "$nurbs" make $body --length 2 -o form.json
+    expect 0 "$nurbs" hydrostatics form.json --json
+    close volume "$(awk -v v="$volume" 'BEGIN { printf "%.17g", 8 * v }')" 1e-10
+    expect 0 "$nurbs" make $body --beam 0.1 --draft 0.03 -o form.json
+    expect 0 "$nurbs" hydrostatics form.json --json
+    close draft 0.03 1e-10
+    close beam 0.1 5e-3
+done
+
 # The hull: sample its design grid, skin and fit it again.
 expect 0 "$nurbs" hydrostatics "$hulls/dtmb5415.json" --json
 close volume 0.5535 3e-3

@@ -1,4 +1,5 @@
 #include "nurbs_tool.h"
+#include "ship_forms.h"
 
 #include <jansson.h>
 #include <string.h>
@@ -34,13 +35,31 @@ static nurbs_status make_wigley(struct dimensions d, nurbs_surface **surface)
                              d.draft > 0 ? d.draft : 0.0625 * length, surface);
 }
 
+/* Lengths that are not given: beam and draft as shares of the length. */
+static nurbs_status make_ship(struct dimensions d, struct ship_form (*form)(double, double, double),
+                              double beam, double draft, nurbs_surface **surface)
+{
+    double length = d.length > 0 ? d.length : 1;
+    struct ship_form ship =
+        form(length, d.beam > 0 ? d.beam : beam * length, d.draft > 0 ? d.draft : draft * length);
+    return ship_form_make(&ship, surface);
+}
+
+static nurbs_status make_fast(struct dimensions d, nurbs_surface **surface)
+{
+    return make_ship(d, ship_form_fast, 0.13, 0.04, surface);
+}
+
+static nurbs_status make_bulb(struct dimensions d, nurbs_surface **surface)
+{
+    return make_ship(d, ship_form_bulb, 0.14, 0.05, surface);
+}
+
 static const struct body {
     const char *name;
     nurbs_status (*make)(struct dimensions, nurbs_surface **);
-} bodies[] = {{"sphere", make_sphere},
-              {"spheroid", make_spheroid},
-              {"ellipsoid", make_ellipsoid},
-              {"wigley", make_wigley}};
+} bodies[] = {{"sphere", make_sphere}, {"spheroid", make_spheroid}, {"ellipsoid", make_ellipsoid},
+              {"wigley", make_wigley}, {"fast", make_fast},         {"bulb", make_bulb}};
 
 static int write_body(const struct body *body, struct dimensions d, const char *path, bool json)
 {
@@ -77,26 +96,30 @@ static int run(int argc, char **argv)
         {"length", OPTION_LENGTH, &d.length, 0, 0}, {"beam", OPTION_LENGTH, &d.beam, 0, 0},
         {"height", OPTION_LENGTH, &d.height, 0, 0}, {"draft", OPTION_LENGTH, &d.draft, 0, 0},
         {"depth", OPTION_NUMBER, &d.depth, 0, 0},   {"output", OPTION_OUTPUT, &output, 0, 0}};
-    const operands body = {1, 1, "one body: sphere, spheroid, ellipsoid or wigley"};
+    const operands body = {1, 1, "one body: sphere, spheroid, ellipsoid, wigley, fast or bulb"};
     int code = parse_options(argc, argv, OPTION_COUNT_OF(options), options, body, &json);
     if (code != CLI_OK)
         return code;
     for (size_t k = 0; k < sizeof bodies / sizeof bodies[0]; k++)
         if (strcmp(bodies[k].name, argv[optind]) == 0)
             return write_body(&bodies[k], d, output, json);
-    return cli_usage("unknown body '%s', expected sphere, spheroid, ellipsoid or wigley",
-                     argv[optind]);
+    return cli_usage(
+        "unknown body '%s', expected sphere, spheroid, ellipsoid, wigley, fast or bulb",
+        argv[optind]);
 }
 
 const subcommand make_command = {
     "make", "make a body with an exact NURBS form", run,
     "usage: nurbs make BODY -o FILE [options]\n"
-    "  Makes the half body (y >= 0) of a sphere, spheroid, ellipsoid or wigley hull.\n"
+    "  Makes the half body (y >= 0) of a sphere, spheroid, ellipsoid or wigley hull, or the\n"
+    "  wetted half of a parametric ship: fast (round bilge, wide immersed transom) or bulb\n"
+    "  (bulbous bow, narrow transom), x from the transom to the stem.\n"
     "  Bodies of revolution and ellipsoids: centre at x = 0, axis at z = -depth. Wigley:\n"
     "  midship at x = 0, waterline at z = 0.\n"
     "  --length L     length, or diameter of the sphere (1)\n"
-    "  --beam B       breadth (sphere: L; spheroid, ellipsoid 0.2 L; wigley 0.1 L)\n"
+    "  --beam B       breadth (sphere: L; spheroid, ellipsoid 0.2 L; wigley 0.1 L; fast 0.13 L;\n"
+    "                 bulb 0.14 L)\n"
     "  --height Z     height of the ellipsoid (0.75 B)\n"
-    "  --draft T      draft of the wigley hull (0.0625 L)\n"
+    "  --draft T      draft (wigley 0.0625 L; fast 0.04 L; bulb 0.05 L)\n"
     "  --depth H      depth of the axis below z = 0 (0)\n"
     "  -o, --output FILE\n"};

@@ -73,7 +73,8 @@ typedef struct igabem_options {
     double cutoff_factor; /**< 1.2 */
     double stem_limit;    /**< nu_c of chi = 1/(1+(|nu_x|/nu_c)^4); NAN: 2 nu_s, with a transom 1.44
                              nu_s */
-    double stern_length;  /**< x_s - x_aft of neumann-kelvin-stern as a share of the length; 0.35 */
+    double stern_length;  /**< x_s - x_aft of neumann-kelvin-stern as a share of the length, 0 to 1;
+                             NAN: 0.35 min(1, (Fr/0.35)^2), below Fr 0.35 this is 2.86 U^2/g */
     double stern_blend;   /**< width of the switch there as a share of the length; 0.014 */
     double spectrum_limit; /**< largest t of the Kochin integral when surface-piercing; 20 */
 
