@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #define DATA(name) TEST_DATA_DIR "/iges_" name ".igs"
+/* Written by Open CASCADE 7.6.3: tests/data/occt_samples.cpp. */
+#define OCCT(name) TEST_DATA_DIR "/occt_" name ".igs"
 
 /* The patch that most of the files hold: bicubic, 6 x 5 poles. */
 static nurbs_surface *expected_patch(void)
@@ -57,6 +59,10 @@ static void pitfalls_give_the_same_patch(void)
         {DATA("trimmed"), "face D1 trims surface D3", 0},
         {DATA("untrimmed_face"), "0 of them trimmed", 0},
         {DATA("brep_face"), "510 face x 1", 0},
+        {OCCT("bspline"), "0 of them trimmed", 1e-15},
+        {OCCT("bspline_brep"), "502 vertex list x 1", 1e-15},
+        {OCCT("trimmed"), "face D1 trims surface D3", 1e-15},
+        {OCCT("trimmed_brep"), "face D1 trims surface D3", 1e-15},
     };
     nurbs_surface *expected = expected_patch();
     for (size_t k = 0; k < sizeof files / sizeof files[0]; k++) {
@@ -190,6 +196,9 @@ static void untrims_faces_of_four_sides(void)
         {DATA("trimmed"), "deviation", 1, 0, {0.1, 0.9}, {0.1, 0.8}},
         {DATA("trimmed_curved"), "deviation", 1, 1, {0, 1}, {0, 1}},
         {DATA("trimmed_face"), "deviation", 1, 1, {0, 1}, {0, 1}},
+        {OCCT("trimmed"), "deviation", 1, 1, {0, 1}, {0, 1}},
+        {OCCT("trimmed_brep"), "deviation", 1, 1, {0, 1}, {0, 1}},
+        {OCCT("bspline_brep"), "0 of them trimmed", 1, 0, {0, 1}, {0, 1}},
         {DATA("trimmed_twice"), "1 of these resampled", 2, 0, {0, 0.5}, {0, 1}},
         {DATA("trimmed_hole"), "the whole surface is kept: it has 2 loops", 1, 0, {0, 1}, {0, 1}},
         {DATA("trimmed_triangle"), "has 3 corners", 1, 0, {0, 1}, {0, 1}},
@@ -225,6 +234,27 @@ static void untrims_faces_of_four_sides(void)
     CU_ASSERT_EQUAL(nurbs_patches_read_iges_untrimmed(DATA("trimmed"), NAN, &none, NULL, 0),
                     NURBS_ERROR_ARGUMENT);
     nurbs_surface_free(expected);
+}
+
+/* A quarter of a cylinder of radius 2 m and length 5 m, written by Open CASCADE in millimetres. */
+static void reads_rational_surfaces_of_open_cascade(void)
+{
+    char report[1000];
+    nurbs_patches *patches = read_file(OCCT("rational"), report);
+    const nurbs_surface *surface = nurbs_patches_get(patches, 0);
+    const double *w = nurbs_surface_weights(surface), *p = nurbs_surface_points(surface);
+    const double x[3] = {2, 2, 0}, y[3] = {0, 2, 2};
+    CU_ASSERT_EQUAL(nurbs_surface_degree(surface, 0), 2);
+    CU_ASSERT_EQUAL(nurbs_surface_degree(surface, 1), 1);
+    CU_ASSERT_PTR_NOT_NULL_FATAL(w);
+    for (size_t i = 0; i < 3; i++)
+        for (size_t j = 0; j < 2; j++, p += 3) {
+            CHECK_CLOSE(w[2 * i + j], i == 1 ? sqrt(0.5) : 1, 5e-10); /* it writes nine digits */
+            CHECK_CLOSE(p[0], x[i], 1e-15);
+            CHECK_CLOSE(p[1], y[i], 1e-15);
+            CHECK_CLOSE(p[2], 5.0 * (double)j, 1e-14);
+        }
+    nurbs_patches_free(patches);
 }
 
 /* Every line of 80 columns, sections numbered from 1. */
@@ -405,6 +435,7 @@ static const struct check_case cases[] = {
     {"clamps periodic knots", clamps_periodic_knots},
     {"writing and reading restores every bit", writing_and_reading_restores_every_bit},
     {"written records are well formed", written_records_are_well_formed},
+    {"reads rational surfaces of open cascade", reads_rational_surfaces_of_open_cascade},
     {"untrims faces of four sides", untrims_faces_of_four_sides},
     {"reads curves", reads_curves},
     {"refuses damaged files", refuses_damaged_files},
