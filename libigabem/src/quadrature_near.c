@@ -17,9 +17,15 @@ double near_scale(const struct near_rule *rule, double area, double distance)
     return rule->k0 > 0 ? 2.0 * decay * fmin(1.0, rule->k0 * distance) : decay;
 }
 
-static int clamp_points(int n)
+/* Points that density and shape ask for on a part of an element: they vary as if they were singular
+ * one element away, until the rule integrates them exactly. */
+static int least_points(const struct domain *domain, const double rect[4], int d, double scale,
+                        double tolerance)
 {
-    return n < NEAR_LEAST ? NEAR_LEAST : n > NEAR_POINTS ? NEAR_POINTS : n;
+    int degree = domain->element->degree[d == 0 ? domain->along : 1 - domain->along];
+    double half = 0.5 * (rect[2 * d + 1] - rect[2 * d]);
+    int n = regular_points(1.0, half, scale, tolerance), exact = degree / 2 + 2;
+    return n < NEAR_LEAST ? NEAR_LEAST : n > exact ? exact : n;
 }
 
 static void divide(const struct near_rule *rule, const struct domain *domain, const double rect[4],
@@ -35,8 +41,10 @@ static void divide(const struct near_rule *rule, const struct domain *domain, co
     for (int d = 0; d < 2; d++)
         n[d] = regular_points(distance - half[1 - d], half[d], scale, rule->tolerance);
     if (depth == NEAR_DEPTH || (n[0] <= NEAR_POINTS && n[1] <= NEAR_POINTS)) {
-        for (int d = 0; d < 2; d++)
-            n[d] = clamp_points(n[d]);
+        for (int d = 0; d < 2; d++) {
+            int least = least_points(domain, rect, d, scale, rule->tolerance);
+            n[d] = n[d] < least ? least : n[d] > NEAR_POINTS ? NEAR_POINTS : n[d];
+        }
         cell_nodes(domain, rect, n, rule->gauss, nodes);
         return;
     }

@@ -23,13 +23,16 @@ static nurbs_surface *take(nurbs_status status, nurbs_surface *result, nurbs_sur
     return result;
 }
 
-/* Even division of every span, one degree higher first: full smoothness. */
+/* Even division of every span, at least cubic before that: full smoothness. */
 static nurbs_surface *refined(nurbs_surface *surface, int along, int around)
 {
     const int parts[2] = {along, around};
     nurbs_surface *result = NULL;
     for (int d = 0; d < 2; d++) {
-        nurbs_status status = nurbs_surface_elevate(surface, d, 1, &result);
+        int by = 3 - nurbs_surface_degree(surface, d);
+        if (by <= 0)
+            continue;
+        nurbs_status status = nurbs_surface_elevate(surface, d, by, &result);
         surface = take(status, result, surface, "degree elevation");
     }
     for (int d = 0; d < 2; d++) {

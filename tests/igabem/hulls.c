@@ -21,12 +21,15 @@ static nurbs_surface *divide(nurbs_surface *surface, int direction, int parts)
     return result;
 }
 
-/* One degree higher in both directions, before any knot is inserted: full smoothness. */
+/* At least cubic, before any knot is inserted: full smoothness. */
 static nurbs_surface *elevate(nurbs_surface *surface)
 {
     for (int d = 0; d < 2; d++) {
         nurbs_surface *result = NULL;
-        CU_ASSERT_EQUAL_FATAL(nurbs_surface_elevate(surface, d, 1, &result), NURBS_OK);
+        int by = 3 - nurbs_surface_degree(surface, d);
+        if (by <= 0)
+            continue;
+        CU_ASSERT_EQUAL_FATAL(nurbs_surface_elevate(surface, d, by, &result), NURBS_OK);
         nurbs_surface_free(surface);
         surface = result;
     }

@@ -194,7 +194,7 @@ static void gradients_of_moments(void)
     CU_ASSERT_EQUAL_FATAL(nurbs_make_wigley(2, 0.4, 0.3, &body[1]), NURBS_OK);
     static const double power[NURBS_MOMENTS] = {2, 3, 4, 4, 4, 5, 5, 5, 5, 5, 5};
     for (int k = 0; k < 2; k++) {
-        const int degree[2] = {2, 2};
+        const int degree[2] = {nurbs_surface_degree(body[k], 0), nurbs_surface_degree(body[k], 1)};
         const size_t size[2] = {nurbs_surface_size(body[k], 0), nurbs_surface_size(body[k], 1)};
         size_t n = 3 * size[0] * size[1];
         double *gradient = malloc((NURBS_MOMENTS + 1) * n * sizeof *gradient);

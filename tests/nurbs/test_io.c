@@ -180,7 +180,7 @@ static void vtu_and_points_are_complete(void)
     while (fgets(line, sizeof line, stream))
         rows++;
     fclose(stream);
-    CU_ASSERT_EQUAL(rows, 1 + 25 + 9);
+    CU_ASSERT_EQUAL(rows, 1 + 36 + 9);
     unlink(path);
     nurbs_patches_free(patches);
 }
