@@ -1,4 +1,5 @@
 #include "band.h"
+#include "combine.h"
 #include "error.h"
 #include "multiversion.h"
 
@@ -26,40 +27,52 @@ void band_free(struct band *band)
     memset(band, 0, sizeof *band);
 }
 
-/* The same for the three or four columns of single control points. */
-NURBS_INLINE void apply_narrow(const struct band *band, size_t columns, const double *in,
-                               double *out)
+/* The same for the columns of single control points; four are one vector. */
+typedef double quad __attribute__((vector_size(32)));
+
+NURBS_MULTIVERSION
+static void apply_to_quads(const struct band *band, const double *in, double *out)
 {
-    for (size_t j = 0; j < band->rows; j++, out += columns) {
+    for (size_t j = 0; j < band->rows; j++, out += 4) {
         const double *weight = band->values + j * band->width;
-        const double *row = in + band->first[j] * columns;
-        double sum[4] = {0.0, 0.0, 0.0, 0.0};
-        for (size_t k = 0; k < band->width; k++, row += columns)
-            for (size_t c = 0; c < columns; c++)
-                sum[c] += weight[k] * row[c];
-        memcpy(out, sum, columns * sizeof *out);
+        const double *row = in + band->first[j] * 4;
+        quad sum = {0.0}, point;
+        for (size_t k = 0; k < band->width; k++, row += 4) {
+            memcpy(&point, row, sizeof point);
+            sum += weight[k] * point;
+        }
+        memcpy(out, &sum, sizeof sum);
     }
 }
 
 NURBS_MULTIVERSION
+static void apply_to_triples(const struct band *band, const double *in, double *out)
+{
+    for (size_t j = 0; j < band->rows; j++, out += 3) {
+        const double *weight = band->values + j * band->width;
+        const double *row = in + band->first[j] * 3;
+        double sum[3] = {0.0};
+        for (size_t k = 0; k < band->width; k++, row += 3)
+            for (size_t c = 0; c < 3; c++)
+                sum[c] += weight[k] * row[c];
+        for (size_t c = 0; c < 3; c++)
+            out[c] = sum[c];
+    }
+}
+
 void band_apply(const struct band *band, size_t columns, const double *in, double *out)
 {
-    if (columns == 3 || columns == 4) {
-        if (columns == 3)
-            apply_narrow(band, 3, in, out);
-        else
-            apply_narrow(band, 4, in, out);
+    if (columns == 3) {
+        apply_to_triples(band, in, out);
         return;
     }
-    for (size_t j = 0; j < band->rows; j++, out += columns) {
-        const double *weight = band->values + j * band->width;
-        const double *row = in + band->first[j] * columns;
-        memset(out, 0, columns * sizeof *out);
-        for (size_t k = 0; k < band->width; k++, row += columns)
-            if (weight[k] != 0.0)
-                for (size_t c = 0; c < columns; c++)
-                    out[c] += weight[k] * row[c];
+    if (columns == 4) {
+        apply_to_quads(band, in, out);
+        return;
     }
+    for (size_t j = 0; j < band->rows; j++, out += columns)
+        combine(band->width, band->values + j * band->width, in + band->first[j] * columns,
+                (ptrdiff_t)columns, columns, 0.0, out);
 }
 
 /* The Cox-de Boor recursion with one argument for each level (Ramshaw 1989; with knots as
@@ -108,37 +121,38 @@ static void cartesian(size_t n, const double *net, double *points, double *weigh
     }
 }
 
-/* Applies the band along the middle index of in[outer][n][inner points]: polynomial control points
- * as they are, rational ones in homogeneous form. */
-static nurbs_status map_points(const struct band *band, size_t outer, size_t n, size_t inner,
-                               const double *points, const double *net, int rational, double **out)
+/* Points of a polynomial net, whose weights become 1 exactly. */
+static void drop_weights(size_t n, double *net, double *points)
 {
-    const size_t dim = rational ? 4 : 3, count = outer * band->rows * inner;
-    const double *in = rational ? net : points;
-    double *mapped = malloc(8 * count * sizeof *mapped);
-    *out = mapped;
-    if (!mapped)
-        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu control points", count);
-    double *target = rational ? mapped + 4 * count : mapped;
+    for (size_t i = 0; i < n; i++) {
+        memcpy(points + 3 * i, net + 4 * i, 3 * sizeof *points);
+        net[4 * i + 3] = 1.0;
+    }
+}
+
+/* Applies the band along the middle index of in[outer][n][dim]. */
+static void map_rows(const struct band *band, size_t outer, size_t n, size_t dim, const double *in,
+                     double *out)
+{
     for (size_t i = 0; i < outer; i++)
-        band_apply(band, inner * dim, in + i * n * inner * dim,
-                   target + i * band->rows * inner * dim);
-    if (rational)
-        cartesian(count, target, mapped, mapped + 3 * count);
-    return NURBS_OK;
+        band_apply(band, dim, in + i * n * dim, out + i * band->rows * dim);
 }
 
 nurbs_status curve_map(const nurbs_curve *curve, const struct band *band, int degree,
                        const double *knots, nurbs_curve **result)
 {
-    double *points;
     const int rational = curve->weights != NULL;
+    const size_t dim = rational ? 4 : 3, n = band->rows;
+    double *mapped = malloc(8 * n * sizeof *mapped);
+    if (!mapped)
+        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu control points", n);
+    double *points = rational ? mapped + 4 * n : mapped;
+    map_rows(band, 1, curve->axis.size, dim, rational ? curve->net : curve->points, mapped);
+    if (rational)
+        cartesian(n, mapped, points, points + 3 * n);
     nurbs_status status =
-        map_points(band, 1, curve->axis.size, 1, curve->points, curve->net, rational, &points);
-    if (status == NURBS_OK)
-        status = nurbs_curve_create(degree, band->rows, knots, points,
-                                    rational ? points + 3 * band->rows : NULL, result);
-    free(points);
+        nurbs_curve_create(degree, n, knots, points, rational ? points + 3 * n : NULL, result);
+    free(mapped);
     return status;
 }
 
@@ -148,18 +162,27 @@ nurbs_status surface_map(const nurbs_surface *s, int direction, const struct ban
     int degrees[2] = {s->axis[0].degree, s->axis[1].degree};
     size_t size[2] = {s->axis[0].size, s->axis[1].size};
     const double *both[2] = {s->axis[0].knots, s->axis[1].knots};
-    const int rational = s->weights != NULL;
-    double *points;
-    nurbs_status status =
-        direction == 0
-            ? map_points(band, 1, size[0], size[1], s->points, s->net, rational, &points)
-            : map_points(band, size[0], size[1], 1, s->points, s->net, rational, &points);
+    const size_t n = size[direction];
     degrees[direction] = degree;
     size[direction] = band->rows;
     both[direction] = knots;
+    nurbs_surface *r;
+    nurbs_status status = surface_reserve(degrees, size, both, s->weights != NULL, &r);
+    if (status != NURBS_OK)
+        return status;
+    const size_t outer = direction == 0 ? 1 : size[0], inner = direction == 0 ? size[1] : 1;
+    map_rows(band, outer, n, 4 * inner, s->net, r->net);
+    const size_t count = size[0] * size[1];
+    if (r->weights) {
+        cartesian(count, r->net, r->points, r->weights);
+        status = points_check(count, r->points, r->weights);
+        homogenize(count, r->points, r->weights, r->net);
+    } else {
+        drop_weights(count, r->net, r->points); /* convex combinations stay finite */
+    }
     if (status == NURBS_OK)
-        status = nurbs_surface_create(degrees, size, both[0], both[1], points,
-                                      rational ? points + 3 * size[0] * size[1] : NULL, result);
-    free(points);
+        *result = r;
+    else
+        nurbs_surface_free(r);
     return status;
 }

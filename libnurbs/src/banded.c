@@ -1,9 +1,13 @@
 #include "banded.h"
 
+#include "combine.h"
 #include "error.h"
 
 #include <math.h>
 #include <stdlib.h>
+
+/* Entries of a row that are combined at once. */
+enum { MOST = 16 };
 
 nurbs_status banded_create(size_t n, size_t lower, size_t upper, banded *matrix)
 {
@@ -42,30 +46,30 @@ nurbs_status banded_factor(banded *matrix)
     return NURBS_OK;
 }
 
-static void subtract(size_t m, double factor, const double *from, double *row)
+/* Row i of the right-hand sides, less columns first to last - 1 of the factors, times `scale`. */
+static void eliminate(const banded *factors, size_t i, size_t first, size_t last, double scale,
+                      size_t m, double *rhs)
 {
-    for (size_t c = 0; c < m; c++)
-        row[c] -= factor * from[c];
+    double weight[MOST] = {0.0}, own = scale;
+    while (first < last && *banded_entry(factors, i, first) == 0)
+        first++;
+    for (size_t part; first < last || own != 1.0; first += part, own = 1.0) {
+        part = last - first < MOST ? last - first : MOST;
+        for (size_t k = 0; k < part; k++)
+            weight[k] = -scale * *banded_entry(factors, i, first + k);
+        combine(part, weight, rhs + first * m, (ptrdiff_t)m, m, own, rhs + i * m);
+    }
 }
 
 void banded_solve(const banded *factors, size_t m, double *rhs)
 {
     size_t n = factors->n;
     for (size_t i = 1; i < n; i++)
-        for (size_t k = i > factors->lower ? i - factors->lower : 0; k < i; k++) {
-            double factor = *banded_entry(factors, i, k);
-            if (factor != 0)
-                subtract(m, factor, rhs + k * m, rhs + i * m);
-        }
+        eliminate(factors, i, i > factors->lower ? i - factors->lower : 0, i, 1.0, m, rhs);
     for (size_t i = n; i-- > 0;) {
         size_t last = i + factors->upper < n ? i + factors->upper : n - 1;
-        for (size_t k = i + 1; k <= last; k++) {
-            double factor = *banded_entry(factors, i, k);
-            if (factor != 0)
-                subtract(m, factor, rhs + k * m, rhs + i * m);
-        }
-        double inverse = 1 / *banded_entry(factors, i, i);
-        for (size_t c = 0; c < m; c++)
-            rhs[i * m + c] *= inverse;
+        while (last > i && *banded_entry(factors, i, last) == 0)
+            last--;
+        eliminate(factors, i, i + 1, last + 1, 1 / *banded_entry(factors, i, i), m, rhs);
     }
 }

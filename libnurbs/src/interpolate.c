@@ -239,6 +239,77 @@ nurbs_status kinked_axis_solve(const kinked_axis *axis, const unsigned char *act
     return status;
 }
 
+/* [a][b][3] to [b][a][3]. */
+static void turn(size_t a, size_t b, const double *from, double *to)
+{
+    for (size_t i = 0; i < a; i++)
+        for (size_t j = 0; j < b; j++)
+            memcpy(to + 3 * (j * a + i), from + 3 * (i * b + j), 3 * sizeof *to);
+}
+
+static nurbs_status check_sites(int degree, size_t n, const double *u, char direction)
+{
+    if (degree < 1 || degree > NURBS_MAX_DEGREE || n <= (size_t)degree)
+        return nurbs_fail(NURBS_ERROR_ARGUMENT,
+                          "direction %c: %zu points for degree %d, expected more points than the "
+                          "degree and a degree from 1 to %d",
+                          direction, n, degree, NURBS_MAX_DEGREE);
+    for (size_t k = 0; k < n; k++)
+        if (!isfinite(u[k]) || (k > 0 && !(u[k] > u[k - 1])))
+            return nurbs_fail(NURBS_ERROR_ARGUMENT,
+                              "direction %c: parameter %zu is %g: parameters must be finite and "
+                              "increase",
+                              direction, k, u[k]);
+    return NURBS_OK;
+}
+
+/* Fills knots and solves rows[n][m] in place. */
+static nurbs_status solve_direction(int degree, size_t n, const double *u, size_t m, double *knots,
+                                    double *rows)
+{
+    banded factors;
+    interpolation_knots(degree, n, u, knots);
+    nurbs_status status = collocation_factor(degree, n, knots, u, &factors);
+    if (status == NURBS_OK) {
+        banded_solve(&factors, m, rows);
+        banded_free(&factors);
+    }
+    return status;
+}
+
+nurbs_status nurbs_surface_interpolate(const int degree[2], const nurbs_grid *grid, const double *u,
+                                       const double *v, nurbs_surface **surface)
+{
+    const size_t n[2] = {nurbs_grid_rows(grid), nurbs_grid_columns(grid)};
+    const double *points = nurbs_grid_points(grid);
+    *surface = NULL;
+    nurbs_status status = check_sites(degree[0], n[0], u, 'u');
+    if (status == NURBS_OK)
+        status = check_sites(degree[1], n[1], v, 'v');
+    if (status != NURBS_OK)
+        return status;
+    for (size_t k = 0; k < 3 * n[0] * n[1]; k++)
+        if (!isfinite(points[k]))
+            return nurbs_fail(NURBS_ERROR_ARGUMENT, "grid point (%zu,%zu): coordinate %zu is %g",
+                              k / 3 / n[1] + 1, k / 3 % n[1] + 1, k % 3, points[k]);
+    const size_t count[2] = {n[0] + (size_t)degree[0] + 1, n[1] + (size_t)degree[1] + 1};
+    double *net = malloc((6 * n[0] * n[1] + count[0] + count[1]) * sizeof *net);
+    if (!net)
+        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory to interpolate %zu x %zu points", n[0],
+                          n[1]);
+    double *turned = net + 3 * n[0] * n[1], *knots_u = turned + 3 * n[0] * n[1],
+           *knots_v = knots_u + count[0];
+    turn(n[0], n[1], points, turned);
+    status = solve_direction(degree[1], n[1], v, 3 * n[0], knots_v, turned);
+    turn(n[1], n[0], turned, net);
+    if (status == NURBS_OK)
+        status = solve_direction(degree[0], n[0], u, 3 * n[1], knots_u, net);
+    if (status == NURBS_OK)
+        status = nurbs_surface_create(degree, n, knots_u, knots_v, net, NULL, surface);
+    free(net);
+    return status;
+}
+
 nurbs_status nurbs_curve_interpolate(int degree, size_t n, const double *points, const double *u,
                                      nurbs_curve **curve)
 {

@@ -62,6 +62,11 @@ static inline size_t net_bytes(size_t n)
            padded(n * sizeof(double));
 }
 
+/* A surface with its knots checked and copied; points, weights (rational) and net are the caller's
+ * to fill. */
+nurbs_status surface_reserve(const int degree[2], const size_t size[2],
+                             const double *const knots[2], int rational, nurbs_surface **surface);
+
 /* Checks n control points and their weights (NULL: none). */
 nurbs_status points_check(size_t n, const double *points, const double *weights);
 

@@ -9,8 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Divisions of a span in the certificate. */
-enum { PARTS = 2 };
+/* Divisions of a span in the certificate of a thrifty search, and the size up to which that of a
+ * curve is one: it is cheap there. */
+enum { PARTS = 2, SHORT_CURVE = 256 };
 
 /* One coordinate of one edge of the original net: is it constant, and is the net on one side? */
 struct edge_plane {
@@ -70,7 +71,7 @@ static nurbs_status thin(const struct subject *s, double tolerance, unsigned fla
 {
     struct thinning_request request = subject_request(s, 0, tolerance);
     request.keep_kinks = (flags & NURBS_KEEP_KINKS) != 0;
-    if (s->directions == 2 && (flags & NURBS_KEEP_EDGES))
+    if (flags & NURBS_KEEP_EDGES)
         set_walls(s, request.wall);
     struct thinning first;
     nurbs_status status = thinning_create(&request, &first);
@@ -125,20 +126,67 @@ static void restore_exact(const struct subject *s, const size_t size[2], int kee
     }
 }
 
+/* The least-squares fit of a curve on the knots that its own order leaves. Creates `t`. */
+static nurbs_status thin_curve(const struct subject *s, double tolerance, struct thinning *t)
+{
+    const struct wall none[3] = {{0, 0.0}, {0, 0.0}, {0, 0.0}};
+    const size_t n = s->size[0], count = n + (size_t)s->degree[0] + 1, planes = (size_t)s->planes;
+    double *rows = malloc((n * planes + count) * sizeof *rows), *kept = rows + n * planes;
+    unsigned char *gone = calloc(count, 1);
+    struct knot_order order = {0};
+    nurbs_status status =
+        rows && gone ? NURBS_OK
+                     : nurbs_fail(NURBS_ERROR_MEMORY, "no memory to simplify %zu points", n);
+    if (status == NURBS_OK) {
+        for (size_t i = 0; i < n; i++)
+            for (size_t plane = 0; plane < planes; plane++)
+                rows[i * planes + plane] = s->net[plane * n + i];
+        const struct strip strip = {n, planes, 1, rows, rows};
+        const struct knot_order_request request = {.degree = s->degree[0],
+                                                   .knots = s->knots[0],
+                                                   .strip = &strip,
+                                                   .limit = tolerance,
+                                                   .wall = none};
+        status = knot_order_create(&request, &order);
+    }
+    if (status == NURBS_OK) {
+        size_t left = 0;
+        for (size_t k = 0; k < order.count; k++)
+            gone[order.knot[k]] = 1;
+        for (size_t k = 0; k < count; k++)
+            if (!gone[k])
+                kept[left++] = s->knots[0][k];
+        struct thinning_request finish = subject_request(s, n <= SHORT_CURVE, tolerance);
+        finish.coarse_size[0] = n - order.count;
+        finish.coarse[0] = kept;
+        status = thinning_create(&finish, t);
+    }
+    if (status == NURBS_OK && n <= SHORT_CURVE) {
+        thinning_run(t);
+        status = thinning_squeeze(t, 8);
+        if (status != NURBS_OK)
+            thinning_free(t);
+    }
+    knot_order_free(&order);
+    free(rows);
+    free(gone);
+    return status;
+}
+
 /* One result within about the tolerance, and its bound. */
-static nurbs_status attempt_thrifty(const struct subject *s, double tolerance, unsigned flags,
-                                    struct simple *r)
+static nurbs_status attempt_thinning(const struct subject *s, double tolerance, unsigned flags,
+                                     struct simple *r)
 {
     struct thinning t;
-    nurbs_status status = thin(s, tolerance, flags, &t);
+    nurbs_status status =
+        s->directions == 1 ? thin_curve(s, tolerance, &t) : thin(s, tolerance, flags, &t);
     if (status != NURBS_OK)
         return status;
     const struct coarse_net net = thinning_net(&t);
     status = simple_create(s, t.along, r);
     r->bound = HUGE_VAL;
     if (status == NURBS_OK && subject_read(s, &net, r->points, r->weights)) {
-        restore_exact(s, net.size, (flags & NURBS_KEEP_EDGES) && s->directions == 2, r->points,
-                      r->weights);
+        restore_exact(s, net.size, (flags & NURBS_KEEP_EDGES) != 0, r->points, r->weights);
         r->bound = subject_certify(s, &t, r->points, r->weights);
     }
     thinning_free(&t);
@@ -179,7 +227,7 @@ static nurbs_status simplify(const struct subject *s, double tolerance, unsigned
     double target = tolerance - s->rounding;
     for (int attempt = 0; attempt < 8 && target > 0.0; attempt++) {
         nurbs_status status =
-            quick ? attempt_quick(s, target, flags, r) : attempt_thrifty(s, target, flags, r);
+            quick ? attempt_quick(s, target, flags, r) : attempt_thinning(s, target, flags, r);
         if (status != NURBS_OK || r->bound <= tolerance)
             return status;
         target *= 0.97 * fmax(0.5, fmin(1.0, tolerance / r->bound));
@@ -209,7 +257,8 @@ nurbs_status nurbs_curve_simplify(const nurbs_curve *curve, double tolerance, nu
     const struct axis *const axes[2] = {&curve->axis, NULL};
     struct subject s;
     struct simple r;
-    status = subject_create(1, PARTS, axes, curve->points, curve->weights, &s);
+    status = subject_create(1, curve->axis.size <= SHORT_CURVE ? PARTS : 1, axes, curve->points,
+                            curve->weights, &s);
     if (status != NURBS_OK)
         return status;
     status = simplify(&s, tolerance, 0, &r);

@@ -9,6 +9,7 @@
 #include "interpolate.h"
 #include "knot_list.h"
 #include "least_squares.h"
+#include "skin_common.h"
 #include <nurbs/basis.h>
 #include <nurbs/fit.h>
 #include <nurbs/modify.h>
@@ -17,17 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of the length of the domain, which is 1. */
-#define MERGE 1e-9
-
 enum { ROUNDS = 16 };
-
-/* Sections on one knot vector: control points [size][n][dimension]. */
-typedef struct common {
-    int degree;
-    size_t size, dimension; /* 3, or 4: homogeneous */
-    double *knots, *net;
-} common;
 
 static void common_free(common *sections)
 {
@@ -35,12 +26,19 @@ static void common_free(common *sections)
     free(sections->net);
 }
 
-/* The curve with its domain moved to [0,1] and its degree raised. */
-static nurbs_status normalize(const nurbs_curve *curve, int degree, nurbs_curve **result)
+/* The curve with its domain moved to [0,1] and its degree raised: itself, or a new one, also in
+ * *made. */
+static nurbs_status normalize(const nurbs_curve *curve, int degree, nurbs_curve **made,
+                              const nurbs_curve **result)
 {
     size_t n = nurbs_curve_size(curve), count = n + (size_t)nurbs_curve_degree(curve) + 1;
     const double *t = nurbs_curve_knots(curve);
-    double *knots = malloc(count * sizeof *knots), first = t[0], last = t[count - 1];
+    const double first = t[0], last = t[count - 1];
+    *result = curve;
+    *made = NULL;
+    if (nurbs_curve_degree(curve) == degree && first == 0.0 && last == 1.0)
+        return NURBS_OK;
+    double *knots = malloc(count * sizeof *knots);
     nurbs_curve *scaled = NULL;
     if (!knots)
         return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu knots", count);
@@ -51,8 +49,9 @@ static nurbs_status normalize(const nurbs_curve *curve, int degree, nurbs_curve 
                            nurbs_curve_weights(curve), &scaled);
     free(knots);
     if (status == NURBS_OK)
-        status = nurbs_curve_elevate(scaled, degree - nurbs_curve_degree(curve), result);
+        status = nurbs_curve_elevate(scaled, degree - nurbs_curve_degree(curve), made);
     nurbs_curve_free(scaled);
+    *result = *made;
     return status;
 }
 
@@ -63,7 +62,7 @@ static int compare_doubles(const void *a, const void *b)
 }
 
 /* All interior knots of all curves, sorted; the caller frees them. */
-static double *gather_knots(size_t n, nurbs_curve *const *curves, size_t *count)
+static double *gather_knots(size_t n, const nurbs_curve *const *curves, size_t *count)
 {
     size_t total = 1;
     for (size_t k = 0; k < n; k++)
@@ -79,92 +78,6 @@ static double *gather_knots(size_t n, nurbs_curve *const *curves, size_t *count)
     if (knots)
         qsort(knots, *count, sizeof *knots, compare_doubles);
     return knots;
-}
-
-static size_t multiplicity_near(const nurbs_curve *curve, double knot)
-{
-    const double *t = nurbs_curve_knots(curve);
-    size_t found = 0;
-    for (size_t i = (size_t)nurbs_curve_degree(curve) + 1; i < nurbs_curve_size(curve); i++)
-        found += fabs(t[i] - knot) <= MERGE;
-    return found;
-}
-
-/* Interior knots of the union: groups within MERGE become their first member, as often as the curve
- * with most of them has it. In place; returns their number. */
-static size_t merge_union(size_t n, nurbs_curve *const *curves, double *knots, size_t count)
-{
-    size_t kept = 0;
-    for (size_t k = 0; k < count;) {
-        double knot = knots[k];
-        size_t most = 0, next = k;
-        while (next < count && knots[next] - knot <= MERGE)
-            next++;
-        for (size_t c = 0; c < n; c++) {
-            size_t here = multiplicity_near(curves[c], knot);
-            most = here > most ? here : most;
-        }
-        for (size_t i = 0; i < most; i++)
-            knots[kept++] = knot;
-        k = next;
-    }
-    return kept;
-}
-
-/* Control points of one curve over the union, homogeneous when dimension is 4. */
-static nurbs_status insert_missing(const nurbs_curve *curve, size_t count, const double *interior,
-                                   size_t n, size_t index, common *sections)
-{
-    size_t missing = 0, dimension = sections->dimension;
-    double *add = malloc((count + 1) * sizeof *add);
-    nurbs_curve *full = NULL;
-    if (!add)
-        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu knots", count);
-    for (size_t k = 0; k < count;) {
-        size_t wanted = 1, have = multiplicity_near(curve, interior[k]);
-        while (k + wanted < count && interior[k + wanted] == interior[k])
-            wanted++;
-        for (size_t i = have; i < wanted; i++)
-            add[missing++] = interior[k];
-        k += wanted;
-    }
-    nurbs_status status = nurbs_curve_insert(curve, missing, add, &full);
-    free(add);
-    if (status != NURBS_OK)
-        return status;
-    const double *points = nurbs_curve_points(full), *weights = nurbs_curve_weights(full);
-    for (size_t i = 0; i < sections->size; i++) {
-        double w = weights ? weights[i] : 1, *to = sections->net + (i * n + index) * dimension;
-        for (size_t c = 0; c < 3; c++)
-            to[c] = (dimension == 4 ? w : 1) * points[3 * i + c];
-        if (dimension == 4)
-            to[3] = w;
-    }
-    nurbs_curve_free(full);
-    return NURBS_OK;
-}
-
-static nurbs_status exact_union(size_t n, nurbs_curve *const *curves, common *sections)
-{
-    size_t count, p = (size_t)sections->degree;
-    double *interior = gather_knots(n, curves, &count);
-    if (!interior)
-        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for the knots of %zu sections", n);
-    count = merge_union(n, curves, interior, count);
-    sections->size = count + p + 1;
-    sections->knots = malloc((sections->size + p + 1) * sizeof(double));
-    sections->net = malloc(sections->size * n * sections->dimension * sizeof(double));
-    nurbs_status status =
-        sections->knots && sections->net
-            ? NURBS_OK
-            : nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu x %zu control points",
-                         sections->size, n);
-    for (size_t k = 0; k < sections->size + p + 1 && status == NURBS_OK; k++)
-        sections->knots[k] = k <= p ? 0 : k >= sections->size ? 1 : interior[k - p - 1];
-    for (size_t k = 0; k < n && status == NURBS_OK; k++)
-        status = insert_missing(curves[k], count, interior, n, k, sections);
-    free(interior);
-    return status;
 }
 
 /* Samples a section: a dozen for each knot span of an average section, and some for the rest. */
@@ -189,7 +102,7 @@ static nurbs_status start_knots(size_t count, const double *gathered, size_t spa
     return status;
 }
 
-static nurbs_status sample_sections(size_t n, nurbs_curve *const *curves, size_t samples,
+static nurbs_status sample_sections(size_t n, const nurbs_curve *const *curves, size_t samples,
                                     const double *u, double *data)
 {
     double *line = malloc(3 * samples * sizeof *line);
@@ -226,7 +139,23 @@ static nurbs_status fit_round(const knot_list *list, size_t n, size_t samples, c
     return NURBS_OK;
 }
 
-static nurbs_status within_tolerance(size_t n, nurbs_curve *const *curves, double tolerance,
+/* From the order of a fit, [size][n][3], to that of sections. */
+static nurbs_status turn_net(size_t n, common *sections)
+{
+    double *net = malloc(3 * n * sections->size * sizeof *net);
+    if (!net)
+        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu x %zu control points", n,
+                          sections->size);
+    for (size_t j = 0; j < sections->size; j++)
+        for (size_t i = 0; i < n; i++)
+            memcpy(net + 3 * (i * sections->size + j), sections->net + 3 * (j * n + i),
+                   3 * sizeof *net);
+    free(sections->net);
+    sections->net = net;
+    return NURBS_OK;
+}
+
+static nurbs_status within_tolerance(size_t n, const nurbs_curve *const *curves, double tolerance,
                                      common *sections)
 {
     size_t count, largest = 0;
@@ -265,71 +194,89 @@ static nurbs_status within_tolerance(size_t n, nurbs_curve *const *curves, doubl
             nurbs_fail(NURBS_ERROR_NUMERIC,
                        "the sections cannot be brought to one knot vector within %g m", tolerance);
     sections->knots = list.knots;
+    if (status == NURBS_OK)
+        status = turn_net(n, sections);
     free(gathered);
     free(u);
     return status;
 }
 
-/* Chord lengths between the control points of neighbouring sections, averaged. */
+/* Distances of the control points of two neighbouring sections. */
+static void chords_between(const common *sections, size_t k, double *chord)
+{
+    const size_t dimension = sections->dimension;
+    const double *a = sections->net + k * sections->size * dimension,
+                 *b = a + sections->size * dimension;
+    for (size_t i = 0; i < sections->size; i++, a += dimension, b += dimension) {
+        const double wa = dimension == 4 ? a[3] : 1, wb = dimension == 4 ? b[3] : 1;
+        double square = 0;
+        for (size_t c = 0; c < 3; c++)
+            square += (b[c] / wb - a[c] / wa) * (b[c] / wb - a[c] / wa);
+        chord[i] = sqrt(square);
+    }
+}
+
+/* Chord lengths between the control points of neighbouring sections as shares of their sum over the
+ * sections, averaged over the control points. */
 static nurbs_status average_chords(size_t n, const common *sections, double *u)
 {
-    size_t used = 0, dimension = sections->dimension;
-    memset(u, 0, n * sizeof *u);
-    for (size_t i = 0; i < sections->size; i++) {
-        const double *row = sections->net + i * n * dimension;
-        double total = 0, run = 0;
-        for (int pass = 0; pass < 2; pass++)
-            for (size_t k = 1; k < n; k++) {
-                const double *a = row + (k - 1) * dimension, *b = row + k * dimension;
-                double wa = dimension == 4 ? a[3] : 1, wb = dimension == 4 ? b[3] : 1, square = 0;
-                for (size_t c = 0; c < 3; c++)
-                    square += (b[c] / wb - a[c] / wa) * (b[c] / wb - a[c] / wa);
-                if (pass == 0)
-                    total += sqrt(square);
-                else if (total > 0)
-                    u[k] += (run += sqrt(square)) / total;
-            }
-        used += total > 0;
+    const size_t m = sections->size;
+    double *chords = malloc(n * m * sizeof *chords), *total = chords + (n - 1) * m;
+    size_t used = 0;
+    if (!chords)
+        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu chords", n * m);
+    memset(total, 0, m * sizeof *total);
+    for (size_t k = 0; k + 1 < n; k++) {
+        chords_between(sections, k, chords + k * m);
+        for (size_t i = 0; i < m; i++)
+            total[i] += chords[k * m + i];
     }
+    for (size_t i = 0; i < m; i++) {
+        used += total[i] > 0;
+        total[i] = total[i] > 0 ? 1.0 / total[i] : 0.0;
+    }
+    u[0] = 0.0;
+    for (size_t k = 0; k + 1 < n; k++) {
+        double share = 0.0;
+        for (size_t i = 0; i < m; i++)
+            share += chords[k * m + i] * total[i];
+        u[k + 1] = u[k] + share / (double)used;
+    }
+    free(chords);
+    u[n - 1] = 1;
     if (used == 0)
         return nurbs_fail(NURBS_ERROR_GEOMETRY, "all sections coincide");
-    for (size_t k = 0; k < n; k++)
-        u[k] /= (double)used;
-    u[n - 1] = 1;
     for (size_t k = 1; k < n; k++)
         if (!(u[k] > u[k - 1]))
             return nurbs_fail(NURBS_ERROR_GEOMETRY, "sections %zu and %zu coincide", k - 1, k);
     return NURBS_OK;
 }
 
-/* Interpolates every row of control points over the sections. */
-static nurbs_status skin_rows(size_t n, const double *u, int degree, const common *sections,
+/* Interpolates every row of control points over the sections, in place. */
+static nurbs_status skin_rows(size_t n, const double *u, int degree, common *sections,
                               nurbs_surface **surface)
 {
     size_t m = sections->size, dimension = sections->dimension, p = (size_t)degree;
-    double *knots = malloc((n + p + 1 + n * m * (dimension + 4)) * sizeof *knots);
+    const int rational = dimension == 4;
+    double *knots = malloc((n + p + 1 + (rational ? 4 * n * m : 0)) * sizeof *knots);
     if (!knots)
         return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu x %zu control points", n, m);
-    double *rows = knots + n + p + 1, *points = rows + n * m * dimension,
-           *weights = points + 3 * n * m;
-    for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j < m; j++)
-            memcpy(rows + (i * m + j) * dimension, sections->net + (j * n + i) * dimension,
-                   dimension * sizeof *rows);
+    double *points = rational ? knots + n + p + 1 : sections->net,
+           *weights = rational ? points + 3 * n * m : NULL;
     averaged_knots(degree, n, u, knots);
     banded factors;
     nurbs_status status = collocation_factor(degree, n, knots, u, &factors);
     if (status == NURBS_OK) {
-        banded_solve(&factors, m * dimension, rows);
+        banded_solve(&factors, m * dimension, sections->net);
         banded_free(&factors);
-        for (size_t k = 0; k < n * m; k++) {
-            weights[k] = dimension == 4 ? rows[4 * k + 3] : 1;
+        for (size_t k = 0; rational && k < n * m; k++) {
+            weights[k] = sections->net[4 * k + 3];
             for (size_t c = 0; c < 3; c++)
-                points[3 * k + c] = rows[dimension * k + c] / weights[k];
+                points[3 * k + c] = sections->net[4 * k + c] / weights[k];
         }
-        status = nurbs_surface_create((const int[]){degree, sections->degree},
-                                      (const size_t[]){n, m}, knots, sections->knots, points,
-                                      dimension == 4 ? weights : NULL, surface);
+        status =
+            nurbs_surface_create((const int[]){degree, sections->degree}, (const size_t[]){n, m},
+                                 knots, sections->knots, points, weights, surface);
     }
     free(knots);
     return status;
@@ -361,9 +308,10 @@ static nurbs_status check_sections(size_t n, const nurbs_curve *const *sections,
 static nurbs_status make_common(size_t n, const nurbs_curve *const *sections, double tolerance,
                                 common *result)
 {
-    nurbs_curve **curves = calloc(n, sizeof(nurbs_curve *));
+    nurbs_curve **made = calloc(n, sizeof(nurbs_curve *));
+    const nurbs_curve **curves = calloc(n, sizeof(nurbs_curve *));
     nurbs_status status =
-        curves ? NURBS_OK : nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu sections", n);
+        made && curves ? NURBS_OK : nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu sections", n);
     *result = (common){.dimension = 3};
     for (size_t k = 0; k < n; k++) {
         int degree = nurbs_curve_degree(sections[k]);
@@ -372,12 +320,13 @@ static nurbs_status make_common(size_t n, const nurbs_curve *const *sections, do
             result->dimension = 4;
     }
     for (size_t k = 0; k < n && status == NURBS_OK; k++)
-        status = normalize(sections[k], result->degree, &curves[k]);
+        status = normalize(sections[k], result->degree, &made[k], &curves[k]);
     if (status == NURBS_OK)
         status = tolerance > 0 ? within_tolerance(n, curves, tolerance, result)
-                               : exact_union(n, curves, result);
-    for (size_t k = 0; curves && k < n; k++)
-        nurbs_curve_free(curves[k]);
+                               : common_union(n, curves, result);
+    for (size_t k = 0; made && k < n; k++)
+        nurbs_curve_free(made[k]);
+    free(made);
     free(curves);
     return status;
 }

@@ -53,7 +53,7 @@ double subject_write(const struct subject *s, const double *points, const double
                      const struct coarse_net *net);
 
 /* Bound of the distance between the original and the result with these coarse control points, over
- * the knots of `t`, which must be on the divided ones. Replaces the coarse net of `t`. */
+ * the fine knots of `t`. Replaces the coarse net of `t`. */
 double subject_certify(const struct subject *s, struct thinning *t, const double *points,
                        const double *weights);
 struct coarse_net thinning_net(const struct thinning *t);

@@ -29,23 +29,14 @@ static nurbs_status surface_check(const int degree[2], const size_t size[2],
     return NURBS_OK;
 }
 
-nurbs_status nurbs_surface_create(const int degree[2], const size_t size[2], const double *knots_u,
-                                  const double *knots_v, const double *points,
-                                  const double *weights, nurbs_surface **surface)
+nurbs_status surface_reserve(const int degree[2], const size_t size[2],
+                             const double *const knots[2], int rational, nurbs_surface **surface)
 {
-    if (!surface)
-        return nurbs_fail(NURBS_ERROR_ARGUMENT, "surface is NULL, expected a place for the result");
     *surface = NULL;
-    const double *const knots[2] = {knots_u, knots_v};
     nurbs_status status = surface_check(degree, size, knots);
     if (status != NURBS_OK)
         return status;
-    const size_t n = size[0] * size[1];
-    status = points_check(n, points, weights);
-    if (status != NURBS_OK)
-        return status;
-
-    const size_t header = padded(sizeof(nurbs_surface));
+    const size_t n = size[0] * size[1], header = padded(sizeof(nurbs_surface));
     nurbs_surface *s = aligned_alloc(64, header + axis_bytes(degree[0], size[0]) +
                                              axis_bytes(degree[1], size[1]) + net_bytes(n));
     if (!s)
@@ -56,7 +47,28 @@ nurbs_status nurbs_surface_create(const int degree[2], const size_t size[2], con
         axis_place(&s->axis[d], degree[d], size[d], knots[d], &cursor);
     s->net = take(&cursor, 4 * n * sizeof(double));
     s->points = take(&cursor, 3 * n * sizeof(double));
-    s->weights = weights ? take(&cursor, n * sizeof(double)) : NULL;
+    s->weights = rational ? take(&cursor, n * sizeof(double)) : NULL;
+    *surface = s;
+    return NURBS_OK;
+}
+
+nurbs_status nurbs_surface_create(const int degree[2], const size_t size[2], const double *knots_u,
+                                  const double *knots_v, const double *points,
+                                  const double *weights, nurbs_surface **surface)
+{
+    if (!surface)
+        return nurbs_fail(NURBS_ERROR_ARGUMENT, "surface is NULL, expected a place for the result");
+    *surface = NULL;
+    const double *const knots[2] = {knots_u, knots_v};
+    nurbs_status status = surface_check(degree, size, knots);
+    if (status == NURBS_OK)
+        status = points_check(size[0] * size[1], points, weights);
+    nurbs_surface *s;
+    if (status == NURBS_OK)
+        status = surface_reserve(degree, size, knots, weights != NULL, &s);
+    if (status != NURBS_OK)
+        return status;
+    const size_t n = size[0] * size[1];
     memcpy(s->points, points, 3 * n * sizeof(double));
     if (weights)
         memcpy(s->weights, weights, n * sizeof(double));

@@ -323,6 +323,220 @@ static void bench_changes(int repetitions)
     nurbs_surface_free(s);
 }
 
+/* Sections of the hull, on one knot vector or each with its own. */
+static void bench_skin(int own, int repetitions)
+{
+    enum { SECTIONS = 90, SIZE = 25 };
+    nurbs_curve *sections[SECTIONS];
+    for (size_t i = 0; i < SECTIONS; i++) {
+        double *t = wobbly_knots(SIZE, own ? 1000 + i : 22), g[SIZE], p[3 * SIZE];
+        nurbs_greville(3, SIZE, t, g);
+        for (size_t j = 0; j < SIZE; j++)
+            hull_point((double)i / (SECTIONS - 1), g[j], p + 3 * j);
+        must(nurbs_curve_create(3, SIZE, t, p, NULL, &sections[i]));
+        free(t);
+    }
+    double ours = -1.0, theirs = -1.0;
+    nurbs_surface *skin = NULL;
+    for (int r = 0; r < repetitions; r++) {
+        nurbs_surface_free(skin);
+        BEST(ours, must(nurbs_skin_curves(SECTIONS, (const nurbs_curve *const *)sections, NULL, 3,
+                                          0.0, &skin)));
+    }
+    size_t peer_size[2] = {0, 0};
+#ifdef HAVE_SISL
+    SISLCurve *peers[SECTIONS];
+    int kinds[SECTIONS];
+    for (size_t i = 0; i < SECTIONS; i++) {
+        double t[SIZE + 4], p[3 * SIZE];
+        memcpy(t, nurbs_curve_knots(sections[i]), sizeof t);
+        memcpy(p, nurbs_curve_points(sections[i]), sizeof p);
+        peers[i] = need(newCurve(SIZE, 4, t, p, 1, 3, 1));
+        kinds[i] = 1;
+    }
+    for (int r = 0; r < repetitions; r++) {
+        SISLSurf *surface = NULL;
+        double *parameters = NULL;
+        int status;
+        BEST(theirs, s1538(SECTIONS, peers, kinds, 0.0, 1, 4, 0, &surface, &parameters, &status));
+        if (surface) {
+            peer_size[0] = (size_t)surface->in1;
+            peer_size[1] = (size_t)surface->in2;
+            freeSurf(surface);
+        }
+        free(parameters);
+    }
+    for (size_t i = 0; i < SECTIONS; i++)
+        freeCurve(peers[i]);
+#endif
+    char note[120];
+    snprintf(note, sizeof note, "%zux%zu, peer %zux%zu", nurbs_surface_size(skin, 0),
+             nurbs_surface_size(skin, 1), peer_size[1], peer_size[0]);
+    report(own ? "skin 90 sections, own knots" : "skin 90 sections, common knots", ours * 1e3,
+           theirs * 1e3, "ms", note);
+    nurbs_surface_free(skin);
+    for (size_t i = 0; i < SECTIONS; i++)
+        nurbs_curve_free(sections[i]);
+}
+
+/* Points of the hull on an even grid, u slow. */
+static nurbs_grid *hull_grid(size_t rows, size_t columns)
+{
+    nurbs_grid *grid;
+    must(nurbs_grid_create(rows, columns, NULL, &grid));
+    for (size_t i = 0; i < rows; i++)
+        for (size_t j = 0; j < columns; j++)
+            hull_point((double)i / (double)(rows - 1), (double)j / (double)(columns - 1),
+                       nurbs_grid_edit(grid) + 3 * (i * columns + j));
+    return grid;
+}
+
+static double *even(size_t n)
+{
+    double *u = need(malloc(n * sizeof *u));
+    for (size_t i = 0; i < n; i++)
+        u[i] = (double)i / (double)(n - 1);
+    return u;
+}
+
+#ifdef HAVE_SISL
+/* The points with the first direction fast. */
+static double *peer_points(const nurbs_grid *grid)
+{
+    const size_t rows = nurbs_grid_rows(grid), columns = nurbs_grid_columns(grid);
+    double *points = need(malloc(3 * rows * columns * sizeof *points));
+    for (size_t i = 0; i < rows; i++)
+        for (size_t j = 0; j < columns; j++)
+            memcpy(points + 3 * (j * rows + i), nurbs_grid_points(grid) + 3 * (i * columns + j),
+                   3 * sizeof *points);
+    return points;
+}
+#endif
+
+static void bench_interpolation(int repetitions)
+{
+    nurbs_grid *grid = hull_grid(90, 25);
+    double ours = -1.0, theirs = -1.0, skin = -1.0, *u = even(90), *v = even(25);
+    nurbs_surface *s;
+    for (int r = 0; r < repetitions; r++) {
+        BEST(ours, must(nurbs_surface_interpolate((const int[]){3, 3}, grid, u, v, &s)));
+        nurbs_surface_free(s);
+        BEST(skin, must(nurbs_skin(grid, NULL, &s)));
+        nurbs_surface_free(s);
+    }
+#ifdef HAVE_SISL
+    double *points = peer_points(grid);
+    for (int r = 0; r < repetitions; r++) {
+        SISLSurf *peer = NULL;
+        int status;
+        BEST(theirs, s1537(points, 90, 25, 3, u, v, 0, 0, 0, 0, 4, 4, 1, 1, &peer, &status));
+        freeSurf(peer);
+    }
+    free(points);
+#endif
+    char note[80];
+    snprintf(note, sizeof note, "with parameters, kinks and fold check: %.3g ms", skin * 1e3);
+    report("interpolate 90x25 points", ours * 1e3, theirs * 1e3, "ms", note);
+    free(u);
+    free(v);
+    nurbs_grid_free(grid);
+}
+
+/* Within a tolerance of a grid: ours interpolates and simplifies. */
+static void bench_grid_fit(double tolerance, int repetitions)
+{
+    enum { ROWS = 300, COLUMNS = 100 };
+    nurbs_grid *grid = hull_grid(ROWS, COLUMNS);
+    double ours = -1.0, theirs = -1.0, *u = even(ROWS), *v = even(COLUMNS);
+    nurbs_surface *s = NULL, *full;
+    for (int r = 0; r < repetitions; r++) {
+        nurbs_surface_free(s);
+        BEST(ours, {
+            must(nurbs_skin(grid, NULL, &full));
+            must(nurbs_surface_simplify(full, tolerance, 0, &s, NULL));
+        });
+        nurbs_surface_free(full);
+    }
+    size_t peer_size[2] = {0, 0};
+#ifdef HAVE_SISL
+    double *points = peer_points(grid), *worst = need(malloc(3 * ROWS * COLUMNS * sizeof *worst));
+    for (int r = 0; r < repetitions; r++) {
+        double eps[3] = {tolerance, tolerance, tolerance}, edge[12];
+        int status, fixed[4] = {0, 0, 0, 0};
+        SISLSurf *peer = NULL;
+        for (int i = 0; i < 12; i++)
+            edge[i] = tolerance;
+        BEST(theirs, s1966(points, ROWS, COLUMNS, 3, 3, u, v, eps, fixed, 1, 1, edge, 0.4, 3, 10, 4,
+                           4, &peer, worst, &status));
+        if (peer) {
+            peer_size[0] = (size_t)peer->in1;
+            peer_size[1] = (size_t)peer->in2;
+            freeSurf(peer);
+        }
+    }
+    free(points);
+    free(worst);
+#endif
+    char name[80], note[120];
+    snprintf(name, sizeof name, "fit 300x100 points within %g", tolerance);
+    snprintf(note, sizeof note, "%zux%zu, peer %zux%zu", nurbs_surface_size(s, 0),
+             nurbs_surface_size(s, 1), peer_size[0], peer_size[1]);
+    report(name, ours * 1e3, theirs * 1e3, "ms", note);
+    nurbs_surface_free(s);
+    free(u);
+    free(v);
+    nurbs_grid_free(grid);
+}
+
+/* Within a tolerance of points on a line; and least squares on the peer's number of even knots. */
+static void bench_curve_fit(double tolerance, int repetitions)
+{
+    enum { POINTS = 2000 };
+    double *p = need(malloc(3 * POINTS * sizeof *p)), *u = even(POINTS);
+    for (size_t i = 0; i < POINTS; i++)
+        hull_point(0.1 + 0.8 * u[i], 0.3 + 0.2 * u[i], p + 3 * i);
+    double ours = -1.0, theirs = -1.0, squares = -1.0;
+    nurbs_curve *c = NULL, *full;
+    for (int r = 0; r < repetitions; r++) {
+        nurbs_curve_free(c);
+        BEST(ours, {
+            must(nurbs_curve_interpolate(3, POINTS, p, u, &full));
+            must(nurbs_curve_simplify(full, tolerance, &c, NULL));
+        });
+        nurbs_curve_free(full);
+    }
+    size_t peer_size = 0;
+#ifdef HAVE_SISL
+    double worst[3];
+    for (int r = 0; r < repetitions; r++) {
+        double eps[3] = {tolerance, tolerance, tolerance};
+        int status;
+        SISLCurve *peer = NULL;
+        BEST(theirs, s1961(p, POINTS, 3, 1, u, eps, 0, 0, 1, 0.4, 10, 4, &peer, worst, &status));
+        if (peer) {
+            peer_size = (size_t)peer->in;
+            freeCurve(peer);
+        }
+    }
+#endif
+    double knots[54];
+    nurbs_curve *fit;
+    for (int i = 0; i < 54; i++)
+        knots[i] = i < 4 ? 0.0 : i > 49 ? 1.0 : (i - 3) / 47.0;
+    for (int r = 0; r < repetitions; r++) {
+        BEST(squares, must(nurbs_curve_fit(3, 50, knots, POINTS, p, u, &fit)));
+        nurbs_curve_free(fit);
+    }
+    char name[80], note[160];
+    snprintf(name, sizeof name, "fit 2000 points within %g", tolerance);
+    snprintf(note, sizeof note, "%zu, peer %zu; least squares on 50 given: %.3g ms",
+             nurbs_curve_size(c), peer_size, squares * 1e3);
+    report(name, ours * 1e3, theirs * 1e3, "ms", note);
+    nurbs_curve_free(c);
+    free(u);
+    free(p);
+}
+
 static void bench_simplify(const char *name, nurbs_surface *s, double tolerance, int repetitions)
 {
     double ours = -1.0, theirs = -1.0, thrifty = -1.0, bound = 0.0;
@@ -413,6 +627,13 @@ int main(int argc, char **argv)
     bench_curve(25, n, repetitions);
     bench_curve(200, n, repetitions);
     bench_changes(repetitions);
+    for (int own = 0; own < 2; own++)
+        bench_skin(own, repetitions);
+    bench_interpolation(repetitions);
+    bench_grid_fit(1e-2, repetitions);
+    bench_grid_fit(1e-3, repetitions);
+    bench_curve_fit(1e-3, repetitions);
+    bench_curve_fit(1e-5, repetitions);
     bench_simplifications(repetitions);
     return 0;
 }

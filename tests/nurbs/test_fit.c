@@ -325,7 +325,56 @@ static void coons_keeps_its_edges(void)
     }
 }
 
+/* A surface of the degrees themselves comes back; of others the points do. */
+static void surface_interpolation(void)
+{
+    enum { ROWS = 9, COLUMNS = 7 };
+    for (int k = 0; k < 4; k++) {
+        const int degree[2] = {1 + k, 4 - k};
+        double u[ROWS], v[COLUMNS];
+        nurbs_grid *grid;
+        nurbs_surface *s;
+        CU_ASSERT_EQUAL_FATAL(nurbs_grid_create(ROWS, COLUMNS, NULL, &grid), NURBS_OK);
+        for (size_t i = 0; i < ROWS; i++)
+            u[i] = 0.5 * (double)i + 0.03 * (double)(i * i);
+        for (size_t j = 0; j < COLUMNS; j++)
+            v[j] = -1.0 + 0.2 * (double)j + 0.02 * (double)(j * j);
+        for (int exact = 0; exact < 2; exact++) {
+            for (size_t i = 0; i < ROWS; i++)
+                for (size_t j = 0; j < COLUMNS; j++) {
+                    double *p = nurbs_grid_edit(grid) + 3 * (i * COLUMNS + j);
+                    p[0] = u[i];
+                    p[1] = exact ? pow(u[i], degree[0]) * pow(v[j], degree[1]) : sin(u[i] * v[j]);
+                    p[2] = 2.0 * v[j];
+                }
+            CU_ASSERT_EQUAL_FATAL(nurbs_surface_interpolate(degree, grid, u, v, &s), NURBS_OK);
+            CU_ASSERT_EQUAL(nurbs_surface_size(s, 0), ROWS);
+            CU_ASSERT_EQUAL(nurbs_surface_size(s, 1), COLUMNS);
+            for (size_t i = 0; i < ROWS; i++)
+                for (size_t j = 0; j < COLUMNS; j++) {
+                    double at[2] = {u[i], v[j]}, q[3];
+                    CU_ASSERT_EQUAL(nurbs_surface_eval(s, 0, 1, at, q), NURBS_OK);
+                    for (size_t c = 0; c < 3; c++)
+                        CHECK_CLOSE(q[c], nurbs_grid_points(grid)[3 * (i * COLUMNS + j) + c],
+                                    1e-11);
+                }
+            const double at[2] = {0.37 * u[ROWS - 1], 0.21};
+            double q[3];
+            CU_ASSERT_EQUAL(nurbs_surface_eval(s, 0, 1, at, q), NURBS_OK);
+            if (exact)
+                CHECK_CLOSE(q[1], pow(at[0], degree[0]) * pow(at[1], degree[1]), 1e-11);
+            nurbs_surface_free(s);
+        }
+        u[3] = u[2];
+        CU_ASSERT_EQUAL(nurbs_surface_interpolate(degree, grid, u, v, &s), NURBS_ERROR_ARGUMENT);
+        CU_ASSERT_PTR_NULL(s);
+        CU_ASSERT_PTR_NOT_NULL(strstr(nurbs_last_error(), "direction u"));
+        nurbs_grid_free(grid);
+    }
+}
+
 static const struct check_case cases[] = {
+    {"interpolation of a grid at given parameters", surface_interpolation},
     {"parametrizations", parametrizations},
     {"coincident points", coincident_points},
     {"interpolation reproduces polynomials", interpolation_reproduces_polynomials},

@@ -30,6 +30,13 @@ NURBS_API nurbs_status nurbs_parametrize(nurbs_parametrization kind, size_t n, c
 NURBS_API nurbs_status nurbs_curve_interpolate(int degree, size_t n, const double *points,
                                                const double *u, nurbs_curve **curve);
 
+/** Interpolates a grid of points at parameters u[rows] x v[columns], both increasing: C^(degree-1),
+ * knots at the parameters (odd degrees) or midway, not-a-knot ends. Errors: as for curves, naming
+ * the direction or the grid point. */
+NURBS_API nurbs_status nurbs_surface_interpolate(const int degree[2], const nurbs_grid *grid,
+                                                 const double *u, const double *v,
+                                                 nurbs_surface **surface);
+
 /** Least-squares curve on given knots (size control points), both end points kept. */
 NURBS_API nurbs_status nurbs_curve_fit(int degree, size_t size, const double *knots, size_t n,
                                        const double *points, const double *u, nurbs_curve **curve);
