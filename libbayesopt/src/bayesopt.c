@@ -10,7 +10,8 @@
 
 const char *bayesopt_phase_name(bayesopt_phase phase)
 {
-    static const char *const names[] = {"initial", "global", "local", "polish", "external"};
+    static const char *const names[] = {"initial", "global",   "local",
+                                        "polish",  "external", "descent"};
     return (unsigned)phase < sizeof names / sizeof *names ? names[phase] : "unknown";
 }
 

@@ -277,24 +277,48 @@ static double log_evidence(struct fit *fit)
     return ok ? best + 0.5 * ((double)k * log_2pi - logs) : best;
 }
 
-/* Leave-one-out log predictive density, Rasmussen and Williams eq. 5.10, and the mean square of the
- * errors. */
-static double loo_density(bayesopt_gp *gp, double *square)
+/* Leave-one-out log predictive density, Rasmussen and Williams eq. 5.10. */
+static double loo_density(bayesopt_gp *gp)
 {
     double *mean = malloc(2 * gp->n * sizeof *mean), sum = 0;
-    *square = INFINITY;
     if (!mean || !gp_condition(gp) || bayesopt_gp_loo(gp, mean, mean + gp->n)) {
         free(mean);
         return -INFINITY;
     }
-    *square = 0;
     for (size_t i = 0; i < gp->n; i++) {
         double var = mean[gp->n + i], error = gp->t[i] - mean[i];
         sum -= 0.5 * (log(var) + error * error / var + log_2pi);
-        *square += error * error / (double)gp->n;
     }
     free(mean);
     return sum;
+}
+
+/* Mean square of the leave-one-out errors in normal scores of the ranks, a scale that does not
+ * depend on the transform in use. */
+static double loo_score_error(bayesopt_gp *gp)
+{
+    struct transform ranks;
+    double *mean = malloc(2 * gp->n * sizeof *mean), square = 0;
+    transform_reset(&ranks);
+    if (!mean || !gp_condition(gp) || bayesopt_gp_loo(gp, mean, mean + gp->n) ||
+        !transform_estimate(&ranks, BAYESOPT_TRANSFORM_RANK, gp->n, gp->y)) {
+        free(mean);
+        return INFINITY;
+    }
+    double low = INFINITY, high = -INFINITY;
+    for (size_t i = 0; i < gp->n; i++) {
+        double t = transform_apply(&ranks, gp->y[i]);
+        low = fmin(low, t);
+        high = fmax(high, t);
+    }
+    for (size_t i = 0; i < gp->n; i++) {
+        double t = transform_apply(&ranks, transform_invert(&gp->transform, mean[i]));
+        double error = fmin(fmax(t, low), high) - transform_apply(&ranks, gp->y[i]);
+        square += error * error / (double)gp->n;
+    }
+    transform_free(&ranks);
+    free(mean);
+    return isnan(square) ? INFINITY : square;
 }
 
 static size_t list_models(const bayesopt_gp *gp, struct model *models)
@@ -355,7 +379,7 @@ static bayesopt_status fit_isotropic(bayesopt_gp *gp, const size_t *isotropic_gr
 }
 
 /* Fits one length scale under a transform. value: log posterior of the caller's outputs; square:
- * leave-one-out error as a share of the variance. */
+ * loo_score_error(). */
 static bayesopt_status try_transform(bayesopt_gp *gp, bayesopt_transform kind,
                                      const size_t *isotropic_groups, size_t starts, double *value,
                                      double *square)
@@ -366,18 +390,23 @@ static bayesopt_status try_transform(bayesopt_gp *gp, bayesopt_transform kind,
     if (status)
         return status;
     *value += log_jacobian(gp);
-    loo_density(gp, square);
+    *square = loo_score_error(gp);
     return BAYESOPT_OK;
 }
 
 /* The transform under which the data are most likely, if it gains more than 2 over leaving them
  * alone and predicts better too: a transform can make outputs look normal and yet hide the
  * structure (a quadratic, say) by which they are predicted. Judged with one length scale. Ranks and
- * winsorising have no density to compare. */
+ * winsorising have no density to compare; as they hide most they must halve the error. */
 static bayesopt_status choose_transform(bayesopt_gp *gp, const size_t *isotropic_groups)
 {
-    static const bayesopt_transform kinds[] = {BAYESOPT_TRANSFORM_LOG,
-                                               BAYESOPT_TRANSFORM_YEO_JOHNSON};
+    static const struct {
+        bayesopt_transform kind;
+        bool density;
+    } others[] = {{BAYESOPT_TRANSFORM_LOG, true},
+                  {BAYESOPT_TRANSFORM_YEO_JOHNSON, true},
+                  {BAYESOPT_TRANSFORM_WINSORISED, false},
+                  {BAYESOPT_TRANSFORM_RANK, false}};
     bayesopt_transform best = BAYESOPT_TRANSFORM_NONE;
     double value, square, least;
     bayesopt_status status =
@@ -386,14 +415,16 @@ static bayesopt_status choose_transform(bayesopt_gp *gp, const size_t *isotropic
         return status;
     double most = value + 2, scale = gp->lengthscale[0];
     struct bayesopt_gp kept = *gp;
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds && !status && gp->n > 4; i++) {
-        status = try_transform(gp, kinds[i], isotropic_groups, 2, &value, &square);
-        if (!status && value > most && square < least) {
-            most = value;
-            best = kinds[i];
-            kept = *gp;
-            scale = gp->lengthscale[0];
-        }
+    for (size_t i = 0; i < sizeof others / sizeof *others && !status && gp->n > 4; i++) {
+        bool density = others[i].density;
+        status = try_transform(gp, others[i].kind, isotropic_groups, 2, &value, &square);
+        if (status || (density ? value <= most || square >= least : square >= 0.5 * least))
+            continue;
+        most = density ? value : most;
+        least = square;
+        best = others[i].kind;
+        kept = *gp;
+        scale = gp->lengthscale[0];
     }
     if (!status)
         status = set_transform(gp, best);
@@ -430,7 +461,7 @@ static bayesopt_status fit_model(bayesopt_gp *gp, struct model model,
                                  const size_t *isotropic_groups, bool compare, double *score)
 {
     struct fit fit;
-    double theta[MOST_PARAMETERS], square;
+    double theta[MOST_PARAMETERS];
     bayesopt_status status = fit_create(&fit, gp, model, isotropic_groups);
     if (status)
         return status;
@@ -443,7 +474,7 @@ static bayesopt_status fit_model(bayesopt_gp *gp, struct model model,
             *score = log_evidence(&fit);
         adopt(&fit);
         if (compare && gp->options.choice == BAYESOPT_CHOICE_LOO)
-            *score = loo_density(gp, &square);
+            *score = loo_density(gp);
     }
     gp->evaluations += fit.evaluations;
     fit_free(&fit);

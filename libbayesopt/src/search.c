@@ -16,6 +16,7 @@ struct climber {
     const struct search *search;
     bool improvement; /* there is a feasible point to improve on */
     double best;      /* its value in modelled units */
+    double unit;      /* what the quadratic's values are measured in */
     double *work, *dmean, *dvar;
     double *constraint_lower, *constraint_upper; /* modelled units */
     double *best_u, best_value;                  /* of the present ascent */
@@ -91,7 +92,7 @@ static double combine(const struct climber *c, size_t stride, const double *mean
         } else if (g > 0) {
             value += bayesopt_log_feasibility(mean[g * stride], sd, c->constraint_lower[g - 1],
                                               c->constraint_upper[g - 1], &dm, &ds);
-        } else if (c->search->goal == SEARCH_MEAN && c->improvement) {
+        } else if (c->search->goal != SEARCH_IMPROVEMENT && c->improvement) {
             value -= mean[0];
             dm = -1;
         } else if (c->improvement) {
@@ -105,13 +106,30 @@ static double combine(const struct climber *c, size_t stride, const double *mean
     return value;
 }
 
+/* The quadratic in modelled units, in place of the regression: mean, and a variance of 0. */
+static double follow_quadratic(const struct climber *c, const double *u, double *mean,
+                               double *dmean, double *dvar)
+{
+    const struct quadratic *q = c->search->quadratic;
+    *mean = (quadratic_value(q, u, dmean) - q->constant) / c->unit;
+    for (size_t j = 0; j < q->d && dmean; j++) {
+        dmean[j] /= c->unit;
+        dvar[j] = 0;
+    }
+    return 0;
+}
+
 static double climb_value(struct climber *c, const double *u, double *gradient)
 {
     const struct surrogates *s = &c->bo->surrogates;
     size_t d = c->bo->d, count = s->count;
     double mean[count], var[count], by_mean[count], by_var[count];
-    bayesopt_status status =
-        surrogates_predict_gradient(c->bo, u, &mean[0], &var[0], c->dmean, c->dvar, c->work);
+    bayesopt_status status = BAYESOPT_OK;
+    if (c->search->goal == SEARCH_QUADRATIC)
+        var[0] = follow_quadratic(c, u, &mean[0], c->dmean, c->dvar);
+    else
+        status =
+            surrogates_predict_gradient(c->bo, u, &mean[0], &var[0], c->dmean, c->dvar, c->work);
     for (size_t g = 1; g < count && !status; g++)
         if (s->gps[g])
             status = bayesopt_gp_predict_gradient(s->gps[g], u, &mean[g], &var[g], c->dmean + g * d,
@@ -284,7 +302,11 @@ static bayesopt_status score(struct climber *c, size_t n, const double *x, doubl
     if (!mean)
         return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
     double *var = mean + n * s->count;
-    bayesopt_status status = surrogates_predict(c->bo, n, x, mean, var);
+    bayesopt_status status = BAYESOPT_OK;
+    if (c->search->goal != SEARCH_QUADRATIC)
+        status = surrogates_predict(c->bo, n, x, mean, var);
+    for (size_t i = 0; i < n && c->search->goal == SEARCH_QUADRATIC; i++)
+        var[i] = follow_quadratic(c, x + i * c->bo->d, &mean[i], NULL, NULL);
     for (size_t g = 1; g < s->count && !status; g++)
         if (s->gps[g])
             status = bayesopt_gp_predict(s->gps[g], n, x, mean + g * n, var + g * n);
@@ -337,6 +359,20 @@ static bayesopt_status ascend_all(struct climber *c, size_t n, double *x, double
     return BAYESOPT_OK;
 }
 
+/* About how much the quadratic varies over the box. */
+static double quadratic_range(const struct search *search)
+{
+    const struct quadratic *q = search->quadratic;
+    double range = 0;
+    if (search->goal != SEARCH_QUADRATIC)
+        return 1;
+    for (size_t j = 0; j < q->d; j++) {
+        double side = search->upper[j] - search->lower[j];
+        range += side * (fabs(q->gradient[j]) + side * fabs(q->hessian[j * q->d + j]));
+    }
+    return isfinite(range) && range > 0 ? range : 1;
+}
+
 static bool climber_create(struct climber *c, struct bayesopt *bo, const struct search *search)
 {
     size_t d = bo->d, count = bo->surrogates.count, m = bo->options.n_constraints;
@@ -350,6 +386,7 @@ static bool climber_create(struct climber *c, struct bayesopt *bo, const struct 
     c->constraint_lower = c->dvar + count * d;
     c->constraint_upper = c->constraint_lower + m;
     c->best_u = c->constraint_upper + m;
+    c->unit = quadratic_range(search);
     for (size_t i = 0; i < m; i++) {
         const bayesopt_gp *gp = bo->surrogates.gps[i + 1];
         double low = bo->constraint_lower[i], high = bo->constraint_upper[i];

@@ -3,10 +3,12 @@
 #define BAYESOPT_SEARCH_H
 
 #include "internal.h"
+#include "quadratic.h"
 
 enum search_goal {
     SEARCH_IMPROVEMENT, /* log expected improvement, constrained */
     SEARCH_MEAN,        /* least posterior mean, with probable feasibility */
+    SEARCH_QUADRATIC,   /* least value of the quadratic, with probable feasibility */
 };
 
 struct search {
@@ -14,6 +16,7 @@ struct search {
     const double *lower, *upper; /* [d] the box within [0,1]^d */
     uint64_t id;                 /* names the random stream */
     size_t candidates, starts;   /* uniform candidates, ascents */
+    const struct quadratic *quadratic;
 };
 
 /* Fills u [d] with the best point found and *value with its acquisition (logarithm of the expected

@@ -163,7 +163,7 @@ static bayesopt_status read_row(struct bayesopt *bo, sqlite3_stmt *s)
     int64_t id = sqlite3_column_int64(s, ID);
     int phase = sqlite3_column_int(s, PHASE), state = sqlite3_column_int(s, STATE);
     int level = sqlite3_column_int(s, LEVEL);
-    if (id < 1 || phase < 0 || phase > BAYESOPT_PHASE_EXTERNAL || state < 0 ||
+    if (id < 1 || phase < 0 || phase > BAYESOPT_PHASE_DESCENT || state < 0 ||
         state > BAYESOPT_STATE_FAILED || level < 0 || level >= (int)bo->options.n_levels)
         return damaged(bo->store, s, "id, phase, state or level is outside its range");
     struct point *p = history_find(bo, (uint64_t)id);

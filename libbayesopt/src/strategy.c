@@ -5,55 +5,151 @@
 
 #include "error.h"
 #include "internal.h"
+#include "quadratic.h"
 #include "search.h"
 
-/* The trust region of Eriksson et al., TuRBO, NeurIPS 2019: side of the box, grown after successes
- * in a row, halved after failures in a row, and begun anew when it has collapsed. */
+/* How the local search stands. All of it is a function of the history. */
 struct trust {
+    size_t centre; /* the best point: feasible with least value, else of least violation */
+    double f, violation;
+    /* The trust region of Eriksson et al., TuRBO, NeurIPS 2019: side of the box, grown after
+     * successes in a row, halved after failures in a row, begun anew when it has collapsed. */
     double length;
-    size_t successes, failures, restarts;
+    size_t successes, failures;
+    /* Local steps that together gained nothing worth naming, and whether they have shown that the
+     * basin's bottom is reached. */
+    size_t idle;
+    double gained;
+    bool settled;
+    /* Half the side of the box a quadratic is trusted in, and what either kind of polishing step
+     * gained of late. */
+    double radius, polish_credit, descent_credit;
+    size_t polished;
 };
 
 static const double length_start = 0.8, length_least = 0x1p-7, length_most = 1.6;
+static const double radius_start = 0.2, radius_most = 0.5, radius_least = 1e-8;
+/* A gain is worth naming from this share on of the distance between the best tenth of the initial
+ * design and the best value. */
+static const double least_share = 1e-6;
+/* Polishing steps longer than this have not settled. */
+static const double settled_step = 0.01;
 
-static void trust_update(const struct bayesopt *bo, struct trust *t, bool success)
+static size_t patience(const struct bayesopt *bo)
 {
-    size_t patience = bo->d > 4 ? bo->d : 4;
+    return bo->d > 4 ? bo->d : 4;
+}
+
+static int compare(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* The value at which the best tenth of the initial design ends. */
+static double good_value(const struct bayesopt *bo)
+{
+    double *values = malloc((bo->n_points + 1) * sizeof *values), value = INFINITY;
+    size_t n = 0;
+    for (size_t i = 0; values && i < bo->n_points; i++)
+        if (bo->points[i].phase == BAYESOPT_PHASE_INITIAL && point_feasible(bo, &bo->points[i]))
+            values[n++] = bo->points[i].f;
+    if (n) {
+        qsort(values, n, sizeof *values, compare);
+        value = values[n / 10];
+    }
+    free(values);
+    return value;
+}
+
+static double largest_difference(const struct bayesopt *bo, const double *u, size_t centre)
+{
+    double most = 0;
+    for (size_t j = 0; j < bo->d && centre != SIZE_MAX; j++)
+        most = fmax(most, fabs(u[j] - bo->points[centre].u[j]));
+    return most;
+}
+
+static void length_update(const struct bayesopt *bo, struct trust *t, bool success)
+{
     t->successes = success ? t->successes + 1 : 0;
     t->failures = success ? 0 : t->failures + 1;
     if (t->successes >= 3) {
         t->length = fmin(2 * t->length, length_most);
         t->successes = 0;
-    } else if (t->failures >= patience) {
+    } else if (t->failures >= patience(bo)) {
         t->length /= 2;
         t->failures = 0;
     }
-    if (t->length < length_least) {
+}
+
+/* Steps that gain nothing although the polishing ones are short have reached the bottom. */
+static void settle(const struct bayesopt *bo, struct trust *t, bool polishing, double step,
+                   double gain, double good)
+{
+    double least = isfinite(good - t->f) ? least_share * (good - t->f) : 0;
+    bool noisy = bo->options.noise != BAYESOPT_NOISE_DETERMINISTIC;
+    t->idle++;
+    t->gained += gain;
+    if (noisy || t->violation > 0 || t->gained > least || (polishing && step > settled_step)) {
+        t->settled = false;
+        t->idle = 0;
+        t->gained = 0;
+    }
+    if (t->length < length_least || t->idle >= patience(bo)) {
+        t->settled = true;
         t->length = length_start;
-        t->restarts++;
+        t->successes = t->failures = t->idle = 0;
+        t->gained = 0;
     }
 }
 
-/* The region's state is a function of the history. A step succeeds when it lowers the best value by
- * more than a thousandth of its size, or the violation when nothing is feasible yet. */
+static void trust_step(const struct bayesopt *bo, const struct point *p, double good,
+                       struct trust *t)
+{
+    bool done = p->state == BAYESOPT_STATE_DONE;
+    double v = done ? history_violation(bo, p) : INFINITY;
+    bool better = done && (v < t->violation || (v == t->violation && p->f < t->f));
+    /* A step succeeds when it lowers the best value by more than a thousandth of its size, or the
+     * violation when nothing is feasible yet. */
+    bool success =
+        done && (v < t->violation || (v == t->violation && p->f < t->f - 1e-3 * fabs(t->f)));
+    double gain = better && v <= 0 && isfinite(t->f) ? t->f - p->f : 0;
+    double step = largest_difference(bo, p->u, t->centre);
+    bool descent = p->phase == BAYESOPT_PHASE_DESCENT, polish = p->phase == BAYESOPT_PHASE_POLISH;
+    if (polish || descent) {
+        double *credit = descent ? &t->descent_credit : &t->polish_credit;
+        *credit = 0.5 * *credit + 0.5 * gain;
+        t->polished++;
+    }
+    if (descent)
+        t->radius = better ? fmin(2 * t->radius, radius_most)
+                           : fmax(0.5 * fmin(t->radius, step), radius_least);
+    else if (better)
+        t->radius = fmin(fmax(t->radius, step), radius_most);
+    if (polish || descent || p->phase == BAYESOPT_PHASE_LOCAL) {
+        length_update(bo, t, success);
+        settle(bo, t, polish || descent, step, gain, good);
+    }
+    if (better) {
+        t->violation = v;
+        t->f = p->f;
+        t->centre = (size_t)(p - bo->points);
+    }
+}
+
 static struct trust trust_replay(const struct bayesopt *bo)
 {
-    struct trust t = {.length = length_start};
-    double f = INFINITY, violation = INFINITY;
-    for (size_t i = 0; i < bo->n_points; i++) {
-        const struct point *p = &bo->points[i];
-        if (p->state == BAYESOPT_STATE_PENDING || p->level + 1 < (int)bo->options.n_levels)
-            continue;
-        double v = p->state == BAYESOPT_STATE_DONE ? history_violation(bo, p) : INFINITY;
-        bool better = v < violation || (v == violation && p->f < f);
-        bool success = v < violation || (v == violation && p->f < f - 1e-3 * fabs(f));
-        if (p->phase == BAYESOPT_PHASE_LOCAL || p->phase == BAYESOPT_PHASE_POLISH)
-            trust_update(bo, &t, p->state == BAYESOPT_STATE_DONE && success);
-        if (p->state == BAYESOPT_STATE_DONE && better) {
-            violation = v;
-            f = p->f;
-        }
-    }
+    struct trust t = {.length = length_start,
+                      .radius = radius_start,
+                      .centre = SIZE_MAX,
+                      .f = INFINITY,
+                      .violation = INFINITY};
+    double good = good_value(bo);
+    for (size_t i = 0; i < bo->n_points; i++)
+        if (bo->points[i].state != BAYESOPT_STATE_PENDING &&
+            bo->points[i].level + 1 == (int)bo->options.n_levels)
+            trust_step(bo, &bo->points[i], good, &t);
     return t;
 }
 
@@ -111,17 +207,57 @@ static bayesopt_status propose_anywhere(struct bayesopt *bo, uint64_t id, double
                                bo->region.m);
 }
 
-/* One global step in eight keeps other basins in view. The others stay near the best point, by
- * turns where improvement is expected (which also measures where little is known) and where the
- * model has its minimum (which on smooth objectives is a Newton-like step). */
-static bayesopt_phase next_phase(const struct bayesopt *bo, uint64_t id, bool known)
+/* Whether the points near the centre are as many as a quadratic has coefficients. */
+static bool surrounded(const struct bayesopt *bo, const struct trust *t)
 {
-    if (!known || bo->options.strategy == BAYESOPT_STRATEGY_GLOBAL)
+    size_t count = 0;
+    for (size_t i = 0; i < bo->n_points; i++)
+        count += point_counts(bo, &bo->points[i]) &&
+                 largest_difference(bo, bo->points[i].u, t->centre) <= 2 * t->radius;
+    return count >= (bo->d + 1) * (bo->d + 2) / 2;
+}
+
+/* Of two kinds of polishing steps the one that gained more of late, every fourth time the other.
+ * The regression knows more of the function; close to a minimum of a smooth one the quadratic is
+ * the better conditioned of the two. */
+static bayesopt_phase polishing_phase(const struct bayesopt *bo, const struct trust *t)
+{
+    if (!surrounded(bo, t) || bo->options.noise != BAYESOPT_NOISE_DETERMINISTIC)
+        return BAYESOPT_PHASE_POLISH;
+    bool descent = t->descent_credit > t->polish_credit;
+    if (t->polished % 4 == 3)
+        descent = !descent;
+    return descent ? BAYESOPT_PHASE_DESCENT : BAYESOPT_PHASE_POLISH;
+}
+
+/* A second polishing step before the first is told would go to the same place. */
+static bool being_polished(const struct bayesopt *bo)
+{
+    for (size_t i = 0; i < bo->n_points; i++) {
+        const struct point *p = &bo->points[i];
+        if (p->state == BAYESOPT_STATE_PENDING &&
+            (p->phase == BAYESOPT_PHASE_POLISH || p->phase == BAYESOPT_PHASE_DESCENT))
+            return true;
+    }
+    return false;
+}
+
+/* One global step in eight keeps other basins in view. The others stay near the best point, by
+ * turns where improvement is expected (which also measures where little is known) and where a model
+ * has its minimum (which on smooth objectives is a Newton-like step). Once the bottom of a basin is
+ * reached, steps that look elsewhere take the place of most of the polishing. */
+static bayesopt_phase next_phase(const struct bayesopt *bo, uint64_t id, const struct trust *t)
+{
+    bayesopt_strategy strategy = bo->options.strategy;
+    if (t->centre == SIZE_MAX || strategy == BAYESOPT_STRATEGY_GLOBAL)
         return BAYESOPT_PHASE_GLOBAL;
-    if (bo->options.strategy == BAYESOPT_STRATEGY_AUTO && id % 8 == 0)
+    if (strategy == BAYESOPT_STRATEGY_LOCAL)
+        return BAYESOPT_PHASE_LOCAL;
+    bool global = t->settled ? id % 6 == 2 || id % 6 == 4 : id % 8 == 0;
+    if (global)
         return BAYESOPT_PHASE_GLOBAL;
-    bool polish = bo->options.strategy == BAYESOPT_STRATEGY_AUTO && bo->options.polish;
-    return polish && id % 2 == 0 ? BAYESOPT_PHASE_POLISH : BAYESOPT_PHASE_LOCAL;
+    return bo->options.polish && id % 2 == 0 && !being_polished(bo) ? polishing_phase(bo, t)
+                                                                    : BAYESOPT_PHASE_LOCAL;
 }
 
 /* The level that removes more of the variance at u for its cost, as long as the proposals at the
@@ -152,11 +288,31 @@ static bool little_expected(const struct bayesopt *bo, double log_improvement)
     return f - lower < bo->options.stop_expected_improvement;
 }
 
+/* A quadratic through the values around the centre; none if there are too few or they lie in a
+ * plane. */
+static bool fit_quadratic(const struct bayesopt *bo, const double *centre, struct quadratic *q)
+{
+    double *x = malloc((bo->n_points ? bo->n_points : 1) * (bo->d + 1) * sizeof *x);
+    size_t n = 0;
+    *q = (struct quadratic){0};
+    if (!x)
+        return false;
+    double *y = x + bo->n_points * bo->d;
+    for (size_t i = 0; i < bo->n_points; i++)
+        if (point_counts(bo, &bo->points[i])) {
+            memcpy(x + n * bo->d, bo->points[i].u, bo->d * sizeof *x);
+            y[n++] = bo->points[i].f;
+        }
+    bool ok = quadratic_fit(q, bo->d, n, x, y, centre);
+    free(x);
+    return ok;
+}
+
 bayesopt_status strategy_propose(struct bayesopt *bo, uint64_t id, double *u, bayesopt_phase *phase,
                                  int *level)
 {
     double lower[1000], upper[1000], value;
-    bool feasible;
+    struct quadratic quadratic = {0};
     size_t done = 0;
     for (size_t i = 0; i < bo->n_points; i++)
         done += point_counts(bo, &bo->points[i]);
@@ -169,22 +325,30 @@ bayesopt_status strategy_propose(struct bayesopt *bo, uint64_t id, double *u, ba
     if (status)
         return status;
     struct trust trust = trust_replay(bo);
-    size_t best = history_best(bo, &feasible);
-    *phase = next_phase(bo, id, best != SIZE_MAX);
-    for (size_t j = 0; j < bo->d; j++) {
-        lower[j] = 0;
-        upper[j] = 1;
-    }
-    if (*phase != BAYESOPT_PHASE_GLOBAL)
-        trust_box(bo, trust.length, bo->points[best].u, lower, upper);
-    bool polish = *phase == BAYESOPT_PHASE_POLISH;
-    struct search search = {.goal = polish ? SEARCH_MEAN : SEARCH_IMPROVEMENT,
+    struct search search = {.goal = SEARCH_IMPROVEMENT,
                             .lower = lower,
                             .upper = upper,
                             .id = id,
                             .candidates = 1024,
-                            .starts = 6};
+                            .starts = 6,
+                            .quadratic = &quadratic};
+    *phase = next_phase(bo, id, &trust);
+    if (*phase == BAYESOPT_PHASE_DESCENT &&
+        !fit_quadratic(bo, bo->points[trust.centre].u, &quadratic))
+        *phase = BAYESOPT_PHASE_POLISH;
+    for (size_t j = 0; j < bo->d; j++) {
+        lower[j] = 0;
+        upper[j] = 1;
+    }
+    if (*phase == BAYESOPT_PHASE_POLISH)
+        search.goal = SEARCH_MEAN;
+    else if (*phase == BAYESOPT_PHASE_DESCENT)
+        search.goal = SEARCH_QUADRATIC;
+    if (*phase != BAYESOPT_PHASE_GLOBAL)
+        trust_box(bo, *phase == BAYESOPT_PHASE_DESCENT ? 2 * trust.radius : trust.length,
+                  bo->points[trust.centre].u, lower, upper);
     status = search_run(bo, &search, u, &value);
+    quadratic_free(&quadratic);
     bo->surrogates.fitted = false;
     if (!status && *phase == BAYESOPT_PHASE_GLOBAL && little_expected(bo, value))
         return BAYESOPT_STOP_EXPECTED_IMPROVEMENT;

@@ -16,6 +16,10 @@ struct test_function {
 extern const struct test_function test_functions[];
 extern const size_t n_test_functions;
 
+/* Others, on which nothing was tuned. */
+extern const struct test_function held_out_functions[];
+extern const size_t n_held_out_functions;
+
 /* u [n x d] filled; splitmix64 and Fisher-Yates as the peers' runs did. */
 void peer_latin_hypercube(unsigned seed, size_t n, size_t d, double *u);
 

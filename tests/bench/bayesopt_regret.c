@@ -1,10 +1,13 @@
 /* Regret on public test functions beside the figures of other optimisers: one default
- * configuration, the peers' initial designs, seeds and budgets. Prints a Markdown table.
+ * configuration, the peers' initial designs, seeds and budgets. Prints Markdown tables: the
+ * functions for which figures of the peers are known, then others on which nothing was tuned, where
+ * NLopt's DIRECT_L and BOBYQA (from the best point of the same design) run along.
  *
  * usage: bayesopt_regret [SEEDS [FUNCTION...]]   (default 10 seeds up to 6 variables, 5 above) */
 #include <bayesopt/bayesopt.h>
 
 #include <math.h>
+#include <nlopt.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -80,6 +83,77 @@ static double best_peer(const char *function, int bayesian, char *name, size_t s
     return best;
 }
 
+struct counted {
+    const struct test_function *f;
+    double best;
+};
+
+static double counted_value(unsigned d, const double *u, double *gradient, void *data)
+{
+    struct counted *c = data;
+    (void)gradient;
+    double value = c->f->value(d, u);
+    c->best = fmin(c->best, value);
+    return value;
+}
+
+/* DIRECT_L with the whole budget, or BOBYQA with what the Latin hypercube leaves of it. */
+static double peer_regret(const struct test_function *f, nlopt_algorithm algorithm, unsigned seed)
+{
+    struct counted c = {f, INFINITY};
+    double lower[MOST_VARIABLES] = {0}, upper[MOST_VARIABLES], x[MOST_VARIABLES], value;
+    size_t budget = f->n_total;
+    for (size_t j = 0; j < f->d; j++) {
+        upper[j] = 1;
+        x[j] = 0.5;
+    }
+    if (algorithm == NLOPT_LN_BOBYQA) {
+        double *initial = malloc(f->n_init * f->d * sizeof *initial);
+        if (!initial)
+            return NAN;
+        peer_latin_hypercube(seed, f->n_init, f->d, initial);
+        for (size_t i = 0; i < f->n_init; i++) {
+            value = f->value(f->d, initial + i * f->d);
+            if (value < c.best) {
+                c.best = value;
+                memcpy(x, initial + i * f->d, f->d * sizeof *x);
+            }
+        }
+        free(initial);
+        budget -= f->n_init;
+    }
+    nlopt_opt opt = nlopt_create(algorithm, (unsigned)f->d);
+    nlopt_set_min_objective(opt, counted_value, &c);
+    nlopt_set_lower_bounds(opt, lower);
+    nlopt_set_upper_bounds(opt, upper);
+    nlopt_set_initial_step1(opt, 0.1);
+    nlopt_set_maxeval(opt, (int)budget);
+    nlopt_optimize(opt, x, &value);
+    nlopt_destroy(opt);
+    return c.best - f->minimum;
+}
+
+static void compare_on_held_out(const struct test_function *f, size_t seeds)
+{
+    static double values[MOST_SEEDS], bobyqa[MOST_SEEDS];
+    clock_t start = clock();
+    for (size_t s = 0; s < seeds; s++)
+        values[s] = regret(f, (unsigned)s);
+    double seconds = (double)(clock() - start) / CLOCKS_PER_SEC;
+    for (size_t s = 0; s < seeds; s++)
+        bobyqa[s] = peer_regret(f, NLOPT_LN_BOBYQA, (unsigned)s);
+    double direct = peer_regret(f, NLOPT_GN_DIRECT_L, 0);
+    qsort(values, seeds, sizeof *values, compare);
+    qsort(bobyqa, seeds, sizeof *bobyqa, compare);
+    printf("| %s (%zu, %zu/%zu) | %.3g [%.2g, %.2g] | %zu | %.3g [%.2g, %.2g] | %.3g | %.4f |\n",
+           f->name, f->d, f->n_init, f->n_total, quantile(values, seeds, 0.5),
+           quantile(values, seeds, 0.25), quantile(values, seeds, 0.75), seeds,
+           quantile(bobyqa, seeds, 0.5), quantile(bobyqa, seeds, 0.25),
+           quantile(bobyqa, seeds, 0.75), direct,
+           seconds / (double)(seeds * (f->n_total - f->n_init)));
+    fflush(stdout);
+}
+
 static void compare_with_peers(const struct test_function *f, size_t seeds)
 {
     static double values[MOST_SEEDS];
@@ -106,6 +180,11 @@ static int wanted(const char *name, int argc, char **argv)
     return argc <= 2;
 }
 
+static size_t seeds_for(const struct test_function *f, size_t given)
+{
+    return given ? given : f->d <= 6 ? 10 : 5;
+}
+
 int main(int argc, char **argv)
 {
     size_t seeds = argc > 1 ? (size_t)strtoul(argv[1], NULL, 10) : 0;
@@ -116,8 +195,12 @@ int main(int argc, char **argv)
            "kind | CPU s per proposal |\n|---|---|---|---|---|---|\n");
     for (size_t i = 0; i < n_test_functions; i++)
         if (wanted(test_functions[i].name, argc, argv))
-            compare_with_peers(&test_functions[i], seeds                      ? seeds
-                                                   : test_functions[i].d <= 6 ? 10
-                                                                              : 5);
+            compare_with_peers(&test_functions[i], seeds_for(&test_functions[i], seeds));
+    printf(
+        "\n| held out (d, n0/N) | regret, median [quartiles] | seeds | LHS + BOBYQA | DIRECT_L | "
+        "CPU s per proposal |\n|---|---|---|---|---|---|\n");
+    for (size_t i = 0; i < n_held_out_functions; i++)
+        if (wanted(held_out_functions[i].name, argc, argv))
+            compare_on_held_out(&held_out_functions[i], seeds_for(&held_out_functions[i], seeds));
     return EXIT_SUCCESS;
 }

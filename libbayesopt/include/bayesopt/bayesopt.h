@@ -45,6 +45,7 @@ typedef enum bayesopt_phase {
     BAYESOPT_PHASE_LOCAL,    /**< maximiser of the acquisition over the trust region */
     BAYESOPT_PHASE_POLISH,   /**< minimiser of the model's mean over the trust region */
     BAYESOPT_PHASE_EXTERNAL, /**< told by the caller without having been asked */
+    BAYESOPT_PHASE_DESCENT,  /**< minimiser of a quadratic through the nearest points */
 } bayesopt_phase;
 
 /** What became of a point. */

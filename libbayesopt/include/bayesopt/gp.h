@@ -57,8 +57,10 @@ typedef enum bayesopt_transform {
                                        median)/IQR */
     BAYESOPT_TRANSFORM_RANK,        /**< normal scores of the ranks, linear between the data */
     BAYESOPT_TRANSFORM_WINSORISED,  /**< values above q75 + 5 (q75 - q25) pulled down to there */
-    BAYESOPT_TRANSFORM_AUTO,        /**< none, unless another gains more than 2 in log marginal
-                                         likelihood, Jacobian included */
+    BAYESOPT_TRANSFORM_AUTO,        /**< none, unless the logarithm or Yeo-Johnson gain more than 2
+                                         in log marginal likelihood, Jacobian included, and lower the
+                                         leave-one-out error (in normal scores of the ranks, common
+                                         to all), or winsorising or ranks halve that error */
 } bayesopt_transform;
 
 /** How bayesopt_gp_fit() prefers one model to another. */

@@ -1,0 +1,151 @@
+#include "quadratic.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_POINTS = 300 };
+
+struct near {
+    double distance;
+    size_t row;
+};
+
+static int nearer(const void *a, const void *b)
+{
+    const struct near *x = a, *y = b;
+    if (x->distance != y->distance)
+        return x->distance < y->distance ? -1 : 1;
+    return x->row < y->row ? -1 : x->row > y->row;
+}
+
+/* Solves A x = b by elimination with row exchanges, A row by row of width n + 1 with b in its last
+ * column, which becomes x. false: singular to rounding. */
+static bool eliminate(size_t n, double *a)
+{
+    size_t w = n + 1;
+    double largest = 0;
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++)
+            largest = fmax(largest, fabs(a[i * w + j]));
+    for (size_t k = 0; k < n; k++) {
+        size_t pivot = k;
+        for (size_t i = k + 1; i < n; i++)
+            if (fabs(a[i * w + k]) > fabs(a[pivot * w + k]))
+                pivot = i;
+        if (!(fabs(a[pivot * w + k]) > 1e-14 * largest))
+            return false;
+        for (size_t j = k; j < w && pivot != k; j++) {
+            double kept = a[k * w + j];
+            a[k * w + j] = a[pivot * w + j];
+            a[pivot * w + j] = kept;
+        }
+        for (size_t i = k + 1; i < n; i++) {
+            double factor = a[i * w + k] / a[k * w + k];
+            for (size_t j = k + 1; j < w && factor != 0; j++)
+                a[i * w + j] -= factor * a[k * w + j];
+        }
+    }
+    for (size_t k = n; k-- > 0;) {
+        for (size_t j = k + 1; j < n; j++)
+            a[k * w + n] -= a[k * w + j] * a[j * w + n];
+        a[k * w + n] /= a[k * w + k];
+    }
+    return true;
+}
+
+/* With H = sum lambda_i s_i s_i' the conditions of least |H|^2 are (s_i's_j)^2/2 lambda + c + g's_i
+ * = y_i, sum lambda = 0, sum lambda s = 0. Steps s are in units of the farthest point used. */
+static bool solve_conditions(size_t d, size_t m, const double *s, const double *y, double *a)
+{
+    size_t n = m + d + 1, w = n + 1;
+    memset(a, 0, n * w * sizeof *a);
+    for (size_t i = 0; i < m; i++) {
+        for (size_t k = 0; k <= i; k++) {
+            double dot = 0;
+            for (size_t j = 0; j < d; j++)
+                dot += s[i * d + j] * s[k * d + j];
+            a[i * w + k] = a[k * w + i] = 0.5 * dot * dot;
+        }
+        /* What points too close to each other need. */
+        a[i * w + i] += 1e-12;
+        a[i * w + m] = a[m * w + i] = 1;
+        for (size_t j = 0; j < d; j++)
+            a[i * w + m + 1 + j] = a[(m + 1 + j) * w + i] = s[i * d + j];
+        a[i * w + n] = y[i];
+    }
+    return eliminate(n, a);
+}
+
+bool quadratic_fit(struct quadratic *q, size_t d, size_t n, const double *x, const double *y,
+                   const double *centre)
+{
+    size_t m = (d + 1) * (d + 2) / 2;
+    m = m < MOST_POINTS ? m : MOST_POINTS;
+    m = m < n ? m : n;
+    *q = (struct quadratic){.d = d};
+    size_t unknowns = m + d + 1;
+    q->centre = malloc((2 * d + d * d) * sizeof(double));
+    struct near *order = malloc((n ? n : 1) * sizeof *order);
+    double *s = malloc((m * (d + 1) + unknowns * (unknowns + 1)) * sizeof *s), unit = 0;
+    bool ok = q->centre && order && s && n > d;
+    if (ok) {
+        q->gradient = q->centre + d;
+        q->hessian = q->gradient + d;
+        for (size_t i = 0; i < n; i++) {
+            order[i] = (struct near){0, i};
+            for (size_t j = 0; j < d; j++)
+                order[i].distance = fmax(order[i].distance, fabs(x[i * d + j] - centre[j]));
+        }
+        qsort(order, n, sizeof *order, nearer);
+        unit = order[m - 1].distance;
+        ok = unit > 0;
+    }
+    double *values = s + m * d, *a = values + m;
+    for (size_t i = 0; i < m && ok; i++) {
+        for (size_t j = 0; j < d; j++)
+            s[i * d + j] = (x[order[i].row * d + j] - centre[j]) / unit;
+        values[i] = y[order[i].row];
+    }
+    ok = ok && solve_conditions(d, m, s, values, a);
+    if (ok) {
+        size_t w = unknowns + 1;
+        memcpy(q->centre, centre, d * sizeof *centre);
+        memset(q->hessian, 0, d * d * sizeof *q->hessian);
+        q->constant = a[m * w + unknowns];
+        for (size_t j = 0; j < d; j++)
+            q->gradient[j] = a[(m + 1 + j) * w + unknowns] / unit;
+        for (size_t i = 0; i < m; i++) {
+            double lambda = a[i * w + unknowns] / (unit * unit);
+            for (size_t j = 0; j < d; j++)
+                for (size_t k = 0; k < d; k++)
+                    q->hessian[j * d + k] += lambda * s[i * d + j] * s[i * d + k];
+        }
+        ok = isfinite(q->constant);
+        for (size_t j = 0; j < d + d * d; j++)
+            ok = ok && isfinite(q->gradient[j]);
+    }
+    free(order);
+    free(s);
+    return ok;
+}
+
+void quadratic_free(struct quadratic *q)
+{
+    free(q->centre);
+    *q = (struct quadratic){0};
+}
+
+double quadratic_value(const struct quadratic *q, const double *x, double *gradient)
+{
+    double value = q->constant;
+    for (size_t j = 0; j < q->d; j++) {
+        double curved = 0;
+        for (size_t k = 0; k < q->d; k++)
+            curved += q->hessian[j * q->d + k] * (x[k] - q->centre[k]);
+        value += (q->gradient[j] + 0.5 * curved) * (x[j] - q->centre[j]);
+        if (gradient)
+            gradient[j] = q->gradient[j] + curved;
+    }
+    return value;
+}
