@@ -11,6 +11,9 @@
  * and coordinates handed to a thread, so that strip and tile stay in cache. */
 enum { LANE = 8, TALL = 8, FLAT = 2, DEPTH = 512, SHALLOW = 32, SLICE = 256 };
 
+/* Multiplications below which waking other threads costs more than they save. */
+enum { ALONE = 1 << 20 };
+
 typedef double lane __attribute__((vector_size(LANE * sizeof(double)), aligned(sizeof(double))));
 
 /* P[i][p] is at p[i across + p along]; the strip's row p at q + p ld; row i of the result at out +
@@ -119,7 +122,7 @@ void galv_rows_times(size_t count, size_t n, double alpha, const double *rows, s
 {
     size_t ld = galv_padded(b);
     strips_function *add = choose_strips();
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (count * n * ld > ALONE)
     for (size_t first = 0; first < count; first += SHALLOW) {
         size_t some = count - first < SHALLOW ? count - first : SHALLOW;
         double *out = t + first * ld;
@@ -139,7 +142,7 @@ void galv_rows_add_transposed(size_t count, size_t n, const double *rows, size_t
 {
     size_t ld = galv_padded(b);
     strips_function *add = choose_strips();
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (count * n * ld > ALONE)
     for (size_t a = 0; a < n; a += SLICE)
         for (size_t first = 0; first < count; first += SHALLOW) {
             size_t some = count - first < SHALLOW ? count - first : SHALLOW;

@@ -41,11 +41,11 @@ galv_status galv_sums_start(galv_sums *sums, size_t stored)
 
 void galv_sums_add(galv_sums *sums, const galv_stream *stream, size_t count)
 {
-    enum { SLICE = 512 };
+    enum { SLICE = 512, ALONE = 1 << 16 };
     size_t active = stream->active;
     for (size_t r = 0; r < count; r++)
         sums->energy += stream->energy[r];
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (count * active > ALONE)
     for (size_t first = 0; first < active; first += SLICE) {
         size_t last = first + SLICE < active ? first + SLICE : active;
         for (size_t r = 0; r < count; r++)

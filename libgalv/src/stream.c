@@ -7,6 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Numbers of a block below which waking other threads costs more than they save. */
+enum { ALONE = 1 << 16 };
+
 galv_status galv_stream_start(galv_stream *stream, galv_source *source, size_t block,
                               const double *weights, bool shifted)
 {
@@ -85,7 +88,7 @@ static void discover(galv_stream *stream, size_t count)
 {
     size_t stored = stream->source->stored;
     bool news = false;
-#pragma omp parallel for schedule(static) reduction(|| : news)
+#pragma omp parallel for schedule(static) reduction(|| : news) if (count * stored > ALONE)
     for (size_t r = 0; r < count; r++)
         news = news || any_under(stored, stream->raw + r * stored, stream->hidden);
     if (news)
@@ -155,7 +158,7 @@ galv_status galv_stream_read(galv_stream *stream, size_t first, size_t count)
     size_t active = stream->active;
     bool plain = is_plain(stream);
     stream->rows = plain ? stream->raw : stream->packed;
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (count * stored > ALONE)
     for (size_t r = 0; r < count; r++) {
         if (!plain)
             pack_row(stream, stream->raw + r * stored, stream->packed + r * active);
