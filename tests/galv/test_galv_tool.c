@@ -304,7 +304,11 @@ static void test_bad_shapes_name_the_field(void)
     static const struct {
         const char *text, *words;
     } bad[] = {
-        {"bounds: [0, 1]\n", "functions or a lattice"},
+        {"bounds: [0, 1]\n", "functions, orders or a lattice"},
+        {"bounds: [0, 1]\norders: [1, 1, 1]\nfunctions:\n  - {order: [1, 1, 1]}\n", "one of"},
+        {"bounds: [0, 1]\norders: [1, 0, 1]\n", "bad.yaml:2"},
+        {"bounds: [0, 1]\norders: [1, 1.5, 1]\n", "'1.5'"},
+        {"orders: [1, 2, 1]\n", "bounds"},
         {"bounds: [0, 1]\nfunctions:\n  - {order: [1, x, 1]}\n", "'x'"},
         {"bounds: [0, 1]\nfunctions:\n  - {order: [1, 1]}\n", "order"},
         {"functions:\n  - {order: [1, 1, 1]}\n", "bounds"},
@@ -325,6 +329,27 @@ static void test_bad_shapes_name_the_field(void)
         scratch_write("bad.yaml", bad[i].text);
         expect("reduce --hull hull.csv --shape bad.yaml --random 5", 1, bad[i].words);
     }
+}
+
+/* The short form stands for the list of all triples, the last axis fastest. */
+static void test_orders(void)
+{
+    write_inputs();
+    scratch_write("short.yaml", "bounds: [-0.02, 0.02]\norders: [2, 1, 2]\n");
+    scratch_write("long.yaml", "bounds: [-0.02, 0.02]\n"
+                               "functions:\n"
+                               "  - {order: [1, 1, 1]}\n"
+                               "  - {order: [1, 1, 2]}\n"
+                               "  - {order: [2, 1, 1]}\n"
+                               "  - {order: [2, 1, 2]}\n");
+    json_t *brief = run_json("reduce --hull hull.csv --shape short.yaml --random 50 --json");
+    json_t *whole = run_json("reduce --hull hull.csv --shape long.yaml --random 50 --json");
+    CU_ASSERT_EQUAL(number(brief, "parameters"), 4);
+    CHECK_CLOSE(number(brief, "trace"), number(whole, "trace"), 0);
+    CU_ASSERT_TRUE(
+        json_equal(json_object_get(brief, "eigenvalues"), json_object_get(whole, "eigenvalues")));
+    json_decref(brief);
+    json_decref(whole);
 }
 
 /* Cut anywhere, a model file is refused with a sentence. */
@@ -364,6 +389,7 @@ static const struct check_case cases[] = {
     {"drawings", test_drawings},
     {"usage", test_usage},
     {"bad shapes name the field", test_bad_shapes_name_the_field},
+    {"all triples of half-waves", test_orders},
     {"bad models are refused", test_bad_models_are_refused},
 };
 

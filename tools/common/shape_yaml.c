@@ -26,8 +26,8 @@ struct lattice_text {
 
 struct shape_text {
     char *combination, *direction;
-    char **phase, **bounds;
-    unsigned phase_count, bounds_count;
+    char **phase, **bounds, **orders;
+    unsigned phase_count, bounds_count, orders_count;
     struct box_text box;
     struct function_text *functions;
     unsigned functions_count;
@@ -78,6 +78,7 @@ static const cyaml_schema_field_t shape_fields[] = {
     WORD(direction, shape_text),
     NUMBERS(phase, shape_text, 3, CYAML_FLAG_OPTIONAL),
     NUMBERS(bounds, shape_text, 2, CYAML_FLAG_OPTIONAL),
+    NUMBERS(orders, shape_text, 3, CYAML_FLAG_OPTIONAL),
     CYAML_FIELD_MAPPING("box", CYAML_FLAG_OPTIONAL, struct shape_text, box, box_fields),
     CYAML_FIELD_SEQUENCE("functions", CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL, struct shape_text,
                          functions, &function_entry, 1, CYAML_UNLIMITED),
@@ -157,10 +158,11 @@ static bool read_function(const char *path, size_t i, const struct function_text
     char *const *limits = text->bounds ? text->bounds : all->bounds;
     const char *direction = text->direction ? text->direction : all->direction;
     if (!limits) {
-        cli_yaml_fail(path, field, "has no bounds, and none are given for all functions");
+        cli_yaml_fail(path, all->orders ? "orders" : field,
+                      "has no bounds, and none are given for all functions");
         return false;
     }
-    return read_numbers(path, field, text->order, 3, function->order) &&
+    return (!text->order || read_numbers(path, field, text->order, 3, function->order)) &&
            (!phase ||
             read_numbers(path, text->phase ? field : "phase", phase, 3, function->phase)) &&
            read_numbers(path, text->bounds ? field : "bounds", limits, 2, bounds) &&
@@ -195,6 +197,39 @@ static bool read_indices(const char *path, const char *field, char *const *text,
             return false;
         }
     return true;
+}
+
+/* Every triple of half-waves from 1 to the number given for its axis, the last axis fastest. */
+static bool interpret_orders(const char *path, const struct shape_text *text,
+                             struct shape_definition *definition)
+{
+    static const struct function_text plain;
+    size_t most[3], count, n = 0;
+    if (!read_indices(path, "orders", text->orders, most))
+        return false;
+    for (int j = 0; j < 3; j++)
+        if (most[j] < 1 || most[j] > 50) {
+            cli_yaml_fail(path, "orders", "holds %zu, expected whole numbers from 1 to 50",
+                          most[j]);
+            return false;
+        }
+    count = most[0] * most[1] * most[2];
+    if (!shape_definition_allocate(SHAPE_SINES, count, definition)) {
+        cli_fail("out of memory");
+        return false;
+    }
+    for (; n < count; n++) {
+        double bounds[2];
+        galv_sine *function = &definition->functions[n];
+        if (!read_function(path, n, &plain, text, function, bounds))
+            return false;
+        function->order[0] = (double)(1 + n / (most[1] * most[2]));
+        function->order[1] = (double)(1 + n / most[2] % most[1]);
+        function->order[2] = (double)(1 + n % most[2]);
+        definition->lower[n] = bounds[0];
+        definition->upper[n] = bounds[1];
+    }
+    return read_combination(path, text->combination, &definition->combination);
 }
 
 /* The moved control points are those from `first` to `last`, both included, counted from 0. */
@@ -261,11 +296,12 @@ static bool interpret(const char *path, const struct shape_text *text, size_t np
                       const double *xyz, struct shape_definition *definition)
 {
     *definition = (struct shape_definition){.n = 0};
-    if (!text->functions == !text->lattice) {
-        cli_fail("%s: expected either functions or a lattice", path);
+    if ((text->functions != NULL) + (text->orders != NULL) + (text->lattice != NULL) != 1) {
+        cli_fail("%s: expected one of functions, orders or a lattice", path);
         return false;
     }
     bool ok = text->functions ? interpret_functions(path, text, definition)
+              : text->orders  ? interpret_orders(path, text, definition)
                               : interpret_lattice(path, text, definition);
     ok = ok && read_box(path, &text->box, npoints, xyz, &definition->box);
     if (!ok)

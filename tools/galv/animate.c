@@ -87,9 +87,14 @@ static galv_status draw_motion(FILE *out, struct strip *strip, size_t k)
     struct body_plan plan = view_body_plan(&view, galv_model_parent(strip->file->model));
     size_t steps = strip->frames > 1 ? 2 * strip->frames - 1 : 1;
     draw_parent(out, strip, &view, &plan);
+    /* Viewers that do not animate show the first hull. */
+    galv_status first = move_hull(strip, k, frame_value(strip, k, 0));
+    if (first)
+        return first;
+    fputs("<path fill=\"none\" stroke=\"#d62728\" stroke-width=\"0.7\" d=\"", out);
+    view_sections(out, &view, &plan, strip->hull);
     fprintf(out,
-            "<path fill=\"none\" stroke=\"#d62728\" stroke-width=\"0.7\">"
-            "<animate attributeName=\"d\" dur=\"%zus\" repeatCount=\"indefinite\" values=\"",
+            "\"><animate attributeName=\"d\" dur=\"%zus\" repeatCount=\"indefinite\" values=\"",
             strip->frames);
     for (size_t s = 0; s < steps; s++) {
         size_t f = s < strip->frames ? s : 2 * (strip->frames - 1) - s;

@@ -56,7 +56,8 @@ static int draw_mode(FILE *out, const struct model_file *file, size_t k, double 
         return -1;
     for (size_t p = 0; p < points; p++)
         size[p] = hypot(hypot(mode[3 * p], mode[3 * p + 1]), mode[3 * p + 2]);
-    svg_text(out, 30, top + 16, 14, SVG_START, "mode %zu, %.2f %% of the variance", k + 1,
+    svg_text(out, 30, top + 16, 14, SVG_START,
+             "mode %zu, %.2f %% of the variance (blue: points stay, yellow: move most)", k + 1,
              100 * galv_model_eigenvalues(model)[k] / galv_model_trace(model));
     struct view view = {.x = 30,
                         .y = top + 24,
