@@ -54,15 +54,17 @@ static double near(const struct station *stations, size_t n, double x, double re
     return largest;
 }
 
-/* Number of stations from one end (step = +1 aft, -1 fore) that belong to a stem arc. */
+/* Number of stations from one end (step = +1 aft, -1 fore) that belong to a stem arc and to the
+ * reach behind it, in which the waterline is still turning. */
 static size_t arc(const struct station *stations, size_t n, int step, double length)
 {
-    double inward = step > 0 ? 1.0 : -1.0;
+    double inward = step > 0 ? 1.0 : -1.0, reach = ARC_REACH * length, last = NAN;
     for (size_t count = 0; count < n; count++) {
         const struct station *s = &stations[step > 0 ? count : n - 1 - count];
-        double further =
-            near(stations, n, s->x + inward * ARC_REACH * length, 0.1 * ARC_REACH * length);
-        if (further > 0 && s->nu <= ARC_RATIO * further)
+        double further = near(stations, n, s->x + inward * reach, 0.1 * reach);
+        if (!(further > 0 && s->nu <= ARC_RATIO * further))
+            last = s->x;
+        else if (!(inward * (s->x - last) < reach))
             return count;
     }
     return 0;

@@ -118,7 +118,7 @@ static void stem_arc_is_left_out(void)
     CU_ASSERT_EQUAL_FATAL(status, IGABEM_OK);
     igabem_hull_info info;
     igabem_hull_get_info(hull, &info);
-    CU_ASSERT(info.nu_s > 0.19 && info.nu_s < 0.30);
+    CU_ASSERT(info.nu_s > 0.19 && info.nu_s < 0.21);
     igabem_hull_free(hull);
     nurbs_surface_free(surface);
     nurbs_curve_free(top);
