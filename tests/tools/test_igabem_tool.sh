@@ -120,5 +120,19 @@ expect_code 1 "expected a name" "$igabem" solve "$hulls/wigley.json" --fr 0.3 --
 [ ! -e "$work/w.txt" ]
 check "nothing half written" $?
 
+# A Wigley hull of B/L 0.25: solved, with a warning; formulations without a cut-off need none.
+echo '{"format":"nurbs","version":1,"unit":"m","patches":[{"degree":[2,2],"size":[3,3],
+  "knots":[[0,0,0,1,1,1],[0,0,0,1,1,1]],"points":[[-0.5,0,0],[-0.5,0,-0.03125],[-0.5,0,-0.0625],
+  [0,0.25,0],[0,0.25,-0.03125],[0,0,-0.0625],[0.5,0,0],[0.5,0,-0.03125],[0.5,0,-0.0625]]}]}' > "$work/full.json"
+expect_code 0 "warning.*nu_s > 0.35" "$igabem" solve "$work/full.json" --fr 0.3 --elements 8,3
+expect_code 0 "" "$igabem" solve "$work/full.json" --fr 0.3 --elements 8,3 --formulation hogner
+[ ! -s "$work/err" ]
+check "no warning for hogner" $?
+"$igabem" check "$work/full.json" | grep -q "warning: full waterline entrance (nu_s > 0.35)"
+check "check warns of a full bow" $?
+"$igabem" solve "$hulls/wigley.json" --fr 0.3 --elements 8,3 2>&1 | grep -q warning
+[ $? -ne 0 ]
+check "no warning for the Wigley hull" $?
+
 [ $failures -eq 0 ] && echo "all checks passed"
 exit $((failures > 0))

@@ -88,16 +88,6 @@ static int parse(int argc, char **argv, struct hull_request *request, bool *json
     return CLI_OK;
 }
 
-static const char *warning(const igabem_hull_info *info)
-{
-    if (info->nu_s > 0.35)
-        return "full waterline entrance (nu_s > 0.35): no cut-off plateau is known for it, do not "
-               "trust C_w";
-    if (info->nu_s > 0.29)
-        return "full waterline entrance (nu_s > 0.29): C_w depends on the cut-off by 5 to 15 %";
-    return "";
-}
-
 static int print_json(const struct hull_input *input, const igabem_hull_info *info,
                       const igabem_options *options)
 {
@@ -113,7 +103,7 @@ static int print_json(const struct hull_input *input, const igabem_hull_info *in
     json_object_set_new(json, "wetted_area", json_real(info->hydrostatics.wetted_area));
     json_object_set_new(json, "formulation",
                         json_string(igabem_formulation_name(options->formulation)));
-    json_object_set_new(json, "warning", json_string(warning(info)));
+    json_object_set_new(json, "warning", json_string(hull_warning(info)));
     int failed = json_dumpf(json, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(12)) != 0 ||
                  putchar('\n') == EOF || fflush(stdout) == EOF;
     json_decref(json);
@@ -133,8 +123,8 @@ static int print_text(const struct hull_input *input, const igabem_hull_info *in
         printf("nu_s %.4g: formulation %s, t_c %.4g, stem limit %.4g\n", info->nu_s,
                igabem_formulation_name(options->formulation), options->cutoff_angle,
                options->stem_limit);
-    if (*warning(info))
-        printf("warning: %s\n", warning(info));
+    if (*hull_warning(info))
+        printf("warning: %s\n", hull_warning(info));
     if (fflush(stdout) == EOF || ferror(stdout))
         return cli_fail("standard output: %s", strerror(errno));
     return CLI_OK;

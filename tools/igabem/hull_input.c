@@ -261,3 +261,13 @@ int hull_input_read(const struct hull_request *request, struct hull_input *input
         hull_input_free(input);
     return code;
 }
+
+const char *hull_warning(const igabem_hull_info *info)
+{
+    if (info->nu_s > 0.35)
+        return "full waterline entrance (nu_s > 0.35): no cut-off plateau is known for it, do not "
+               "trust C_w";
+    if (info->nu_s > 0.29)
+        return "full waterline entrance (nu_s > 0.29): C_w depends on the cut-off by 5 to 15 %";
+    return "";
+}

@@ -6,6 +6,7 @@
 #include "equilibrium.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -208,6 +209,18 @@ static int solve_all(struct solve_run *run)
     return code;
 }
 
+/* Hogner, Michell and the double body know no cut-off. */
+static void warn(const struct solve_run *run)
+{
+    const igabem_options *options = &run->request->options;
+    igabem_formulation f = options->formulation;
+    const char *text = hull_warning(&run->info);
+    if (*text && options->kernel == IGABEM_KERNEL_KELVIN &&
+        (run->request->all || f == IGABEM_AUTOMATIC || f == IGABEM_NEUMANN_KELVIN ||
+         f == IGABEM_NEUMANN_KELVIN_STERN))
+        fprintf(stderr, "igabem: warning: %s: %s\n", run->request->hull.path, text);
+}
+
 int command_solve(int argc, char **argv)
 {
     struct solve_request request;
@@ -230,6 +243,7 @@ int command_solve(int argc, char **argv)
         igabem_formulation list[6];
         igabem_hull_get_info(input.hull, &run.info);
         run.cases = request.n_fr * formulations(&request, &run.info, list);
+        warn(&run);
         code = solve_all(&run);
     }
     if (code == CLI_OK && request.plot)
