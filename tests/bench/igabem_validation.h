@@ -25,6 +25,7 @@ void solve_all(const igabem_hull *hull, size_t n, const igabem_options *options,
 void double_body_section(void);
 void spheroid_section(void);
 void wigley_section(void);
+void forms_section(void);
 void dtmb5415_section(const char *file);
 
 #endif
