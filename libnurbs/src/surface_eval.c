@@ -1,6 +1,7 @@
 #include "axis_basis.h"
 #include "error.h"
 #include "object.h"
+#include "surface_derivatives.h"
 
 #include <string.h>
 
@@ -97,6 +98,20 @@ static int inside(const struct axis *axis, double value)
     return value >= axis->knots[0] && value <= axis->knots[axis->size];
 }
 
+/* Returns 0 outside the domain. */
+NURBS_INLINE int find_spans(const nurbs_surface *s, unsigned left, const double *uv, size_t span[2])
+{
+    for (int d = 0; d < 2; d++) {
+        const struct axis *axis = &s->axis[d];
+        if (!inside(axis, uv[d]))
+            return 0;
+        span[d] = axis_span(axis, uv[d]);
+        if (left & (1U << d))
+            span[d] = axis_span_left(axis, span[d], uv[d]);
+    }
+    return 1;
+}
+
 /* Returns the number of points done: less than n where a parameter is outside the domain. */
 NURBS_INLINE size_t evaluate_all(const nurbs_surface *s, int pu, int pv, int order, int rational,
                                  unsigned left, size_t n, const double *uv, double *out)
@@ -104,14 +119,8 @@ NURBS_INLINE size_t evaluate_all(const nurbs_surface *s, int pu, int pv, int ord
     const size_t stride = 3 * (size_t)NURBS_SURFACE_TRIPLES(order);
     for (size_t i = 0; i < n; i++) {
         size_t span[2];
-        for (int d = 0; d < 2; d++) {
-            const struct axis *axis = &s->axis[d];
-            if (!inside(axis, uv[2 * i + (size_t)d]))
-                return i;
-            span[d] = axis_span(axis, uv[2 * i + (size_t)d]);
-            if (left & (1U << d))
-                span[d] = axis_span_left(axis, span[d], uv[2 * i + (size_t)d]);
-        }
+        if (!find_spans(s, left, uv + 2 * i, span))
+            return i;
         evaluate_one(s, pu, pv, order, rational, span, uv + 2 * i, out + i * stride);
     }
     return n;
@@ -138,7 +147,7 @@ static size_t evaluate_any(const nurbs_surface *s, int order, unsigned left, siz
                         uv, out);
 }
 
-static nurbs_status eval_check(const nurbs_surface *surface, int order, const void *in,
+static nurbs_status eval_check(const nurbs_surface *surface, int order, int highest, const void *in,
                                const void *out)
 {
     if (!surface || !in || !out)
@@ -146,10 +155,24 @@ static nurbs_status eval_check(const nurbs_surface *surface, int order, const vo
                           !surface ? "surface"
                           : !in    ? "the parameter array"
                                    : "out");
-    if (order < 0 || order > 2)
-        return nurbs_fail(NURBS_ERROR_ARGUMENT, "derivative order is %d, expected 0, 1 or 2",
-                          order);
+    if (order < 0 || order > highest)
+        return nurbs_fail(NURBS_ERROR_ARGUMENT, "derivative order is %d, expected 0 to %d", order,
+                          highest);
     return NURBS_OK;
+}
+
+/* As evaluate_all, any order. */
+static size_t evaluate_high(const nurbs_surface *s, int order, unsigned left, size_t n,
+                            const double *uv, double *out)
+{
+    const size_t stride = 3 * (size_t)NURBS_SURFACE_TRIPLES(order);
+    for (size_t i = 0; i < n; i++) {
+        size_t span[2];
+        if (!find_spans(s, left, uv + 2 * i, span))
+            return i;
+        surface_derivatives(s, order, span, uv + 2 * i, out + i * stride);
+    }
+    return n;
 }
 
 nurbs_status nurbs_surface_eval_sided(const nurbs_surface *surface, int order, unsigned left,
@@ -157,12 +180,13 @@ nurbs_status nurbs_surface_eval_sided(const nurbs_surface *surface, int order, u
 {
     if (n == 0)
         return NURBS_OK;
-    nurbs_status status = eval_check(surface, order, uv, out);
+    nurbs_status status = eval_check(surface, order, SURFACE_MAX_ORDER, uv, out);
     if (status != NURBS_OK)
         return status;
     const int cubic = surface->axis[0].degree == 3 && surface->axis[1].degree == 3;
-    const size_t done = cubic ? evaluate_cubic(surface, order, left, n, uv, out)
-                              : evaluate_any(surface, order, left, n, uv, out);
+    const size_t done = order > 2 ? evaluate_high(surface, order, left, n, uv, out)
+                        : cubic   ? evaluate_cubic(surface, order, left, n, uv, out)
+                                  : evaluate_any(surface, order, left, n, uv, out);
     if (done == n)
         return NURBS_OK;
     const int direction = inside(&surface->axis[0], uv[2 * done]) ? 1 : 0;
@@ -285,7 +309,7 @@ nurbs_status nurbs_surface_eval_grid(const nurbs_surface *surface, int order, si
 {
     if (nu == 0 || nv == 0)
         return NURBS_OK;
-    nurbs_status status = eval_check(surface, order, u && v ? u : NULL, out);
+    nurbs_status status = eval_check(surface, order, SURFACE_MAX_ORDER, u && v ? u : NULL, out);
     if (status != NURBS_OK)
         return status;
     const double *const at[2] = {u, v};
@@ -299,7 +323,11 @@ nurbs_status nurbs_surface_eval_grid(const nurbs_surface *surface, int order, si
                                   "grid parameter %c decreases at %zu: %.17g after %.17g", "uv"[d],
                                   i, at[d][i], at[d][i - 1]);
         }
-    if (surface->axis[0].degree == 3 && surface->axis[1].degree == 3)
+    if (order > 2)
+        for (size_t k = 0; k < nu * nv; k++)
+            evaluate_high(surface, order, 0, 1, (const double[]){u[k / nv], v[k % nv]},
+                          out + k * 3 * (size_t)NURBS_SURFACE_TRIPLES(order));
+    else if (surface->axis[0].degree == 3 && surface->axis[1].degree == 3)
         grid_cubic(surface, order, nu, u, nv, v, out);
     else
         grid_any(surface, order, nu, u, nv, v, out);
@@ -335,7 +363,7 @@ static void make_rational(int order, size_t count, const double *w, double *valu
 nurbs_status nurbs_surface_basis(const nurbs_surface *surface, int order, double u, double v,
                                  size_t span[2], double *values)
 {
-    nurbs_status status = eval_check(surface, order, span, values);
+    nurbs_status status = eval_check(surface, order, 2, span, values);
     if (status != NURBS_OK)
         return status;
     const double at[2] = {u, v};
@@ -371,7 +399,7 @@ nurbs_status nurbs_surface_rows(const nurbs_surface *surface, int order, size_t 
 {
     if (n == 0)
         return NURBS_OK;
-    nurbs_status status = eval_check(surface, order, uv && columns ? uv : NULL, values);
+    nurbs_status status = eval_check(surface, order, 2, uv && columns ? uv : NULL, values);
     if (status != NURBS_OK)
         return status;
     const size_t pu = (size_t)surface->axis[0].degree, pv = (size_t)surface->axis[1].degree;

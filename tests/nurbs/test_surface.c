@@ -243,7 +243,7 @@ static void test_bad_input_is_named(void)
     double out[36], uv[4] = {0.5, 0.5, 0.5, NAN};
     size_t span[2];
     refused(nurbs_surface_eval(s, 0, 2, uv, out), "parameter 1 has v = nan");
-    refused(nurbs_surface_eval(s, 3, 1, uv, out), "order is 3");
+    refused(nurbs_surface_eval(s, 51, 1, uv, out), "order is 51");
     refused(nurbs_surface_eval(s, 0, 1, uv, NULL), "out is NULL");
     refused(nurbs_surface_eval_grid(s, 0, 2, (const double[]){0.5, 0.4}, 1, uv, out),
             "u decreases at 1");
@@ -255,7 +255,101 @@ static void test_bad_input_is_named(void)
     nurbs_surface_free(NULL);
 }
 
+/* x = 1 / (1 + u + v) as a bilinear rational surface: every derivative in closed form. */
+static void test_high_orders_of_a_quotient(void)
+{
+    enum { ORDER = 12 };
+    const int degree[2] = {1, 1};
+    const size_t size[2] = {2, 2};
+    const double knots[4] = {0, 0, 1, 1}, weights[4] = {1, 2, 2, 3};
+    double points[12] = {0}, out[3 * NURBS_SURFACE_TRIPLES(ORDER)];
+    for (int i = 0; i < 4; i++)
+        points[3 * i] = 1.0 / weights[i];
+    nurbs_surface *s;
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_create(degree, size, knots, knots, points, weights, &s),
+                          NURBS_OK);
+    const double uv[2] = {0.3, 0.45}, base = 1.0 + uv[0] + uv[1];
+    CU_ASSERT_EQUAL(nurbs_surface_eval(s, ORDER, 1, uv, out), NURBS_OK);
+    double expected = 1.0 / base;
+    for (int total = 0, k = 0; total <= ORDER; total++) {
+        for (int l = 0; l <= total; l++, k++)
+            CHECK_CLOSE(out[3 * k], expected, 1e-12 * fabs(expected));
+        expected *= -(total + 1) / base;
+    }
+    nurbs_surface_free(s);
+}
+
+/* Orders above two against sums of basis functions, by Leibniz' rule for rational surfaces; on the
+ * grid, and from the left of a knot as the end of the piece before it. */
+static void test_high_orders(void)
+{
+    enum { ORDER = 6, TRIPLES = NURBS_SURFACE_TRIPLES(ORDER) };
+    uint64_t state = 29;
+    for (int rational = 0; rational < 2; rational++) {
+        const int degree[2] = {4, 3};
+        const size_t size[2] = {11, 9};
+        nurbs_surface *s = random_surface(&state, degree, size, 0, rational);
+        const double knot = nurbs_surface_knots(s, 0)[6];
+        for (int trial = 0; trial < 12; trial++) {
+            const int at_knot = trial == 11;
+            const double uv[2] = {at_knot ? knot : random_unit(&state), random_unit(&state)};
+            double out[3 * TRIPLES], grid[3 * TRIPLES], basis[2][(ORDER + 1) * 5], low[18];
+            const unsigned left = at_knot ? 1 : 0;
+            CU_ASSERT_EQUAL_FATAL(nurbs_surface_eval_sided(s, ORDER, left, 1, uv, out), NURBS_OK);
+            CU_ASSERT_EQUAL(nurbs_surface_eval_sided(s, 2, left, 1, uv, low), NURBS_OK);
+            CHECK_CLOSE(largest_difference(out, low, 18), 0.0, 1e-11 * scale_of(low, 18));
+            if (!at_knot) {
+                CU_ASSERT_EQUAL(nurbs_surface_eval_grid(s, ORDER, 1, uv, 1, uv + 1, grid),
+                                NURBS_OK);
+                CU_ASSERT_EQUAL(largest_difference(out, grid, 3 * TRIPLES), 0.0);
+            }
+            size_t span[2];
+            for (int d = 0; d < 2; d++) {
+                span[d] =
+                    nurbs_basis_span(degree[d], size[d], nurbs_surface_knots(s, d), uv[d], NULL);
+                span[d] -= d == 0 && at_knot;
+                nurbs_basis_derivatives(degree[d], nurbs_surface_knots(s, d), span[d], uv[d], ORDER,
+                                        basis[d]);
+            }
+            double a[ORDER + 1][ORDER + 1][4] = {{{0}}}, largest = 0.0;
+            for (int k = 0; k <= ORDER; k++)
+                for (int l = 0; l <= ORDER; l++)
+                    for (size_t i = 0; i < 5; i++)
+                        for (size_t j = 0; j < 4; j++) {
+                            const size_t p = (span[0] - 4 + i) * size[1] + span[1] - 3 + j;
+                            const double w = rational ? nurbs_surface_weights(s)[p] : 1.0;
+                            const double b =
+                                w * basis[0][(size_t)k * 5 + i] * basis[1][(size_t)l * 4 + j];
+                            for (size_t c = 0; c < 3; c++)
+                                a[k][l][c] += b * nurbs_surface_points(s)[3 * p + c];
+                            a[k][l][3] += b;
+                        }
+            for (size_t k = 0; k < 4 * (ORDER + 1) * (ORDER + 1); k++)
+                largest = fmax(largest, fabs((&a[0][0][0])[k]));
+            for (int k = 0; k <= ORDER; k++)
+                for (int l = 0; k + l <= ORDER; l++)
+                    for (int c = 0; c < 3; c++) { /* the derivative of w S is that of A */
+                        double sum = 0.0, size_of_terms = 0.0, ci = 1.0;
+                        for (int i = 0; i <= k; ci = ci * (k - i) / (i + 1), i++) {
+                            double cj = 1.0;
+                            for (int j = 0; j <= l; cj = cj * (l - j) / (j + 1), j++) {
+                                const int total = k - i + l - j;
+                                const double term = ci * cj * a[i][j][3] *
+                                                    out[3 * (total * (total + 1) / 2 + l - j) + c];
+                                sum += term;
+                                size_of_terms += fabs(term);
+                            }
+                        }
+                        CHECK_CLOSE(sum, a[k][l][c], 1e-12 * (size_of_terms + largest));
+                    }
+        }
+        nurbs_surface_free(s);
+    }
+}
+
 static const struct check_case cases[] = {
+    {"any order of a quotient", test_high_orders_of_a_quotient},
+    {"orders above two", test_high_orders},
     {"reference points and derivatives", test_reference},
     {"grid, scattered points and orders agree", test_grid_and_orders_agree},
     {"basis rows reproduce points", test_basis_rows},

@@ -36,14 +36,16 @@ NURBS_API const double *nurbs_surface_knots(const nurbs_surface *surface, int di
 NURBS_API const double *nurbs_surface_points(const nurbs_surface *surface);
 NURBS_API const double *nurbs_surface_weights(const nurbs_surface *surface);
 
-/** Derivatives of a point, per order: 1, 3 or 6 triples S, Su, Sv, Suu, Suv, Svv. */
+/** Derivatives of a point up to an order, by total order and then by the number of v derivatives:
+ * S, Su, Sv, Suu, Suv, Svv, Suuu, Suuv, ... */
 #define NURBS_SURFACE_TRIPLES(order) (((order) + 1) * ((order) + 2) / 2)
 
 /** Points and derivatives at n scattered parameters.
- * @param order  0, 1 or 2
+ * @param order  0 to 50; up to 2 is the fast path. Above the degree of a polynomial: zero
  * @param uv     n pairs u,v inside the domain (else an error naming the index)
  * @param out    fills out[n][NURBS_SURFACE_TRIPLES(order)][3]
- * At interior knots the right-hand limit, at the end of the domain the left-hand one. */
+ * At interior knots the right-hand limit, at the end of the domain the left-hand one. Spans are found
+ * by a table in constant time, so no hint is needed. */
 NURBS_API nurbs_status nurbs_surface_eval(const nurbs_surface *surface, int order, size_t n,
                                           const double *uv, double *out);
 
