@@ -11,6 +11,7 @@
 struct pressure_sums {
     double drag_linear, drag_square; /* Int U phi_x n_x, Int -|grad phi|^2/2 n_x */
     double run_up;                   /* (g/2) Oint zeta^2 nu_x dl */
+    double transom;                  /* -g Int z n_x: zero on a closed body */
     double lift;                     /* -Int p/rho n_z: the upward force */
     double moment;                   /* positive bow down */
 };
@@ -20,13 +21,14 @@ static void integrate_pressure(const igabem_solution *solution, const struct sou
 {
     double speed = solution->speed, gravity = solution->options.gravity;
     double axis = solution->info.hydrostatics.waterplane_centre;
-    *sums = (struct pressure_sums){0, 0, 0, 0, 0};
+    *sums = (struct pressure_sums){0, 0, 0, 0, 0, 0};
     for (size_t j = 0; j < s->n; j++) {
         double u = s->velocity[0][j], v = s->velocity[1][j], w = s->velocity[2][j];
         double linear = speed * u, square = -0.5 * (u * u + v * v + w * w);
         double nx = s->normal[0][j] * s->area[j], nz = s->normal[2][j] * s->area[j];
         sums->drag_linear += linear * nx;
         sums->drag_square += square * nx;
+        sums->transom -= gravity * s->z[j] * nx;
         sums->lift -= (linear + square) * nz;
         sums->moment -= (linear + square) * (s->z[j] * nx - (s->x[j] - axis) * nz);
     }
@@ -38,6 +40,7 @@ static void integrate_pressure(const igabem_solution *solution, const struct sou
     sums->drag_linear *= sides;
     sums->drag_square *= sides;
     sums->run_up *= sides;
+    sums->transom *= sides;
     sums->lift *= sides;
     sums->moment *= sides;
 }
@@ -76,6 +79,9 @@ static igabem_status pressure_forces(const igabem_solution *solution, igabem_for
     if (drag_is_wave_resistance(solution)) {
         forces->cw_pressure_linear = scale * sums.drag_linear;
         forces->cw_pressure = scale * (sums.drag_linear + sums.drag_square + sums.run_up);
+        forces->cw_run_up = scale * sums.run_up;
+        if (solution->info.transom)
+            forces->cw_transom = scale * sums.transom;
     }
     attitude(solution, &sums, forces);
     if (!isfinite(sums.drag_linear) || !isfinite(sums.drag_square) || !isfinite(sums.lift))
@@ -97,6 +103,8 @@ igabem_status igabem_forces_compute(const igabem_solution *solution, igabem_forc
                               .cw_l2 = NAN,
                               .cw_pressure = NAN,
                               .cw_pressure_linear = NAN,
+                              .cw_run_up = NAN,
+                              .cw_transom = NAN,
                               .cw_cutoff_lower = NAN,
                               .cw_cutoff_upper = NAN,
                               .share_beyond_cutoff = NAN,

@@ -87,6 +87,20 @@ static void test_missing(void)
     CU_ASSERT_FALSE(v.formulations || v.only_objective);
 }
 
+static void test_filter(void)
+{
+    struct verification rows[] = {row("objective", 1.0e-3, 0.5e-3),
+                                  row("formulation", 1e-3, 0.6e-3), row("filter", 1.0e-3, 0.6e-3)};
+    struct verdict v;
+    verify_judge(rows, 3, &v);
+    CU_ASSERT(v.has_filter && v.filter);
+    CU_ASSERT_PTR_NULL(strstr(v.statement, "filter"));
+    rows[2].cw_best = 1.5e-3;
+    verify_judge(rows, 3, &v);
+    CU_ASSERT(v.has_filter && !v.filter);
+    CU_ASSERT_PTR_NOT_NULL(strstr(v.statement, "too full"));
+}
+
 static void test_no_gain(void)
 {
     const struct verification rows[] = {row("objective", 1.0, 1.0), row("formulation", 1.0, 1.0)};
@@ -105,13 +119,16 @@ static void test_plan(void)
     frozen.froude = 0.35;
     frozen.formulation = IGABEM_NEUMANN_KELVIN_STERN;
     frozen.stern_length = 0.35;
+    frozen.cutoff_angle = 5.0;
+    frozen.stem_limit = 0.35;
     size_t n = verify_plan(&config, &frozen, rows, options);
-    CU_ASSERT_EQUAL(n, 1 + 4 + 2 + 1 + 2);
+    CU_ASSERT_EQUAL(n, 1 + 4 + 2 + 1 + 1 + 2);
     CU_ASSERT_STRING_EQUAL(rows[0].group, "objective");
     for (size_t i = 1; i < n; i++) {
         int changed = (options[i].formulation != frozen.formulation) +
                       (options[i].stern_length != frozen.stern_length) +
-                      (options[i].refine != frozen.refine) + (options[i].froude != frozen.froude);
+                      (options[i].refine != frozen.refine) + (options[i].froude != frozen.froude) +
+                      (isnan(options[i].cutoff_angle) && isnan(options[i].stem_limit));
         CU_ASSERT_EQUAL(changed, 1);
         CU_ASSERT_EQUAL(options[i].froude, rows[i].froude);
         CU_ASSERT_EQUAL(options[i].refine, rows[i].refine);
@@ -119,6 +136,8 @@ static void test_plan(void)
     frozen.formulation = IGABEM_NEUMANN_KELVIN;
     config.verify_refine = 1;
     config.verify_froudes = 0;
+    CU_ASSERT_EQUAL(verify_plan(&config, &frozen, rows, options), 1 + 4 + 1);
+    frozen.cutoff_angle = INFINITY; /* submerged: no filter to choose */
     CU_ASSERT_EQUAL(verify_plan(&config, &frozen, rows, options), 1 + 4);
 }
 
@@ -128,6 +147,7 @@ static const struct check_case cases[] = {
     {"pressure contradicts", test_pressure},
     {"models disagree", test_divided},
     {"missing results", test_missing},
+    {"filter of its own", test_filter},
     {"no gain at all", test_no_gain},
     {"what is verified", test_plan},
 };

@@ -182,6 +182,34 @@ static void similarity(void)
     CHECK_RELATIVE(rw[1] / rw[0], 343.0, 1e-9);
 }
 
+/* The wedge's transom is a triangle of half breadth b and depth T: rho g b T^2/3 of hydrostatic
+ * pressure is missing on it when it is dry; a closed hull has no such term. */
+static void dry_transom(void)
+{
+    const double b = 0.05, draft = 0.04;
+    nurbs_surface *surface = wedge_surface(b, draft);
+    const nurbs_surface *list[1] = {surface};
+    igabem_hull *hull = NULL;
+    CU_ASSERT_EQUAL_FATAL(igabem_hull_create(list, 1, IGABEM_SYMMETRIC, &hull), IGABEM_OK);
+    nurbs_surface_free(surface);
+    igabem_options options;
+    igabem_options_init(&options);
+    options.froude = 0.5;
+    options.elements_u = 4;
+    options.elements_v = 3;
+    igabem_forces forces = forces_of(hull, &options);
+    igabem_hull_free(hull);
+    double dynamic = 0.5 * forces.speed * forces.speed * forces.wetted_area;
+    CHECK_RELATIVE(forces.cw_transom, options.gravity * b * draft * draft / 3 / dynamic, 1e-10);
+    CU_ASSERT(isfinite(forces.cw_run_up) && forces.cw_run_up != 0.0);
+    hull = wigley_hull(0.1, 0.0625, 4, 2);
+    forces = forces_of(hull, &options);
+    igabem_hull_free(hull);
+    CU_ASSERT(isnan(forces.cw_transom));
+    /* what the run-up adds is second order: far below the linear pressure on a thin hull */
+    CU_ASSERT(fabs(forces.cw_run_up) < 0.5 * fabs(forces.cw_pressure_linear));
+}
+
 static const struct check_case cases[] = {
     {"submerged spheroid against its exact resistance", submerged_spheroid},
     {"Kochin against pressure", kochin_against_pressure},
@@ -189,6 +217,7 @@ static const struct check_case cases[] = {
     {"the spectrum adds up", spectrum_adds_up},
     {"sinkage and trim of a double body", attitude_of_double_body},
     {"geometric similarity", similarity},
+    {"what a dry transom lacks", dry_transom},
 };
 
 CHECK_MAIN("forces", cases)

@@ -47,7 +47,7 @@ bool store_list_evaluations(struct store *store, size_t modes, struct evaluation
 
 /* One line of the verification: parent and optimum under the same settings. */
 struct verification {
-    char group[16]; /* "objective", "formulation", "resolution", "speed", "stern" */
+    char group[16]; /* "objective", "formulation", "resolution", "filter", "speed", "stern" */
     char label[80], formulation[40];
     double froude;
     int refine;

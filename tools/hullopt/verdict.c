@@ -42,6 +42,9 @@ static void count(const struct verification *row, struct verdict *v)
     } else if (strcmp(row->group, "resolution") == 0) {
         v->has_resolution = true;
         v->resolution = gain >= RESOLUTION_SHARE * v->claimed;
+    } else if (strcmp(row->group, "filter") == 0) {
+        v->has_filter = true;
+        v->filter = gain >= CONFIRM_SHARE * v->claimed;
     } else if (strcmp(row->group, "speed") == 0) {
         v->speeds = (!v->has_speeds || v->speeds) && gain >= -NO_CHANGE;
         v->has_speeds = true;
@@ -82,6 +85,9 @@ static void state(struct verdict *v)
     if (v->has_resolution)
         say(v, v->resolution ? " A finer solve keeps the gain."
                              : " A finer solve does not keep the gain.");
+    if (v->has_filter && !v->filter)
+        say(v, " With a filter for its own entrance angle the optimum loses more than half of the "
+               "gain: its waterline is too full for the filter of the search.");
     if (v->has_speeds)
         say(v, v->speeds ? " At the other speeds resistance does not rise."
                          : " At another speed the resistance rises.");
@@ -97,6 +103,7 @@ void verify_judge(const struct verification *rows, size_t n, struct verdict *v)
     v->formulations = gain && v->models > 0 && v->deny == 0 && 2 * v->confirm > v->models;
     v->only_objective = gain && v->models > 0 && v->confirm == 0;
     v->resolution = v->resolution && gain;
+    v->filter = v->filter && gain;
     v->speeds = v->speeds && gain;
     state(v);
 }

@@ -68,6 +68,11 @@ size_t verify_plan(const struct config *config, const igabem_options *frozen,
         snprintf(label, sizeof label, "%d times the resolution", config->verify_refine);
         add(rows, options, &n, "resolution", label, &finer);
     }
+    if (isfinite(frozen->cutoff_angle)) {
+        igabem_options own = *frozen;
+        own.cutoff_angle = own.stem_limit = NAN;
+        add(rows, options, &n, "filter", "each hull's own filter", &own);
+    }
     for (size_t i = 0; i < config->verify_froudes; i++) {
         igabem_options other = *frozen;
         other.froude = config->verify_froude[i];

@@ -1,5 +1,6 @@
 /* Does another model see the gain? The optimum beside the parent in every other formulation, at a
- * finer resolution and at other speeds. */
+ * finer resolution, with the short-wave filter that its own waterline asks for, and at other
+ * speeds. */
 #ifndef HULLOPT_VERIFY_H
 #define HULLOPT_VERIFY_H
 
@@ -26,10 +27,11 @@ struct verdict {
     bool formulations; /* most confirm and none denies */
     bool resolution;   /* the finer solve keeps at least 80 % of the reduction */
     bool speeds;       /* no increase at another speed */
-    bool has_resolution, has_speeds;
+    bool filter;       /* with a filter by the rule on each hull, not the parent's, half remains */
+    bool has_resolution, has_speeds, has_filter;
     bool only_objective; /* no other model confirms even half */
     double pressure;     /* reduction by the pressure integral of the same solutions; NAN: none */
-    char statement[600];
+    char statement[800];
 };
 void verify_judge(const struct verification *rows, size_t n, struct verdict *verdict);
 

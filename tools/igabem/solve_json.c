@@ -71,6 +71,8 @@ static json_t *result_json(const struct solve_run *run, const struct solve_resul
     json_object_set_new(json, "cw", real(f->cw));
     json_object_set_new(json, "cw_pressure", real(f->cw_pressure));
     json_object_set_new(json, "cw_pressure_linear", real(f->cw_pressure_linear));
+    json_object_set_new(json, "cw_run_up", real(f->cw_run_up));
+    json_object_set_new(json, "cw_transom", real(f->cw_transom));
     json_object_set_new(json, "cw_l2", real(f->cw_l2));
     json_object_set_new(json, "rw", real(f->rw));
     json_object_set_new(json, "rw_over_weight", real(f->rw / weight));

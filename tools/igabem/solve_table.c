@@ -58,8 +58,10 @@ static void print_result(const struct solve_run *run, const struct solve_result 
     else if (f->share_beyond_cutoff > 0)
         printf("  beyond t_c %.2g %% of C_w\n", 100.0 * f->share_beyond_cutoff);
     if (isfinite(f->cw_pressure_linear))
-        printf("  C_w by pressure without the quadratic and run-up terms %.4e\n",
-               f->cw_pressure_linear);
+        printf("  C_w by pressure without the quadratic and run-up terms %.4e; run-up %.4e\n",
+               f->cw_pressure_linear, f->cw_run_up);
+    if (isfinite(f->cw_transom))
+        printf("  a dry transom adds %.4e to C_w by pressure\n", f->cw_transom);
     if (isfinite(result->cw_cut))
         printf("  C_w by a longitudinal wave cut %.4e\n", result->cw_cut);
     if (isfinite(result->share[0]))

@@ -115,6 +115,9 @@ typedef struct igabem_forces {
     double cw_l2;               /**< rw / (rho U^2 L^2 / 2) */
     double cw_pressure;         /**< by integrating the pressure over the hull */
     double cw_pressure_linear;  /**< the same without the quadratic and run-up terms */
+    double cw_run_up;           /**< part of cw_pressure from the strip between water and wave */
+    double cw_transom; /**< what a dry transom adds to cw_pressure: the hydrostatic pressure
+                          that is missing on it; NAN without an open transom */
     double cw_cutoff_lower,
         cw_cutoff_upper;        /**< cw at 0.85 and 1.15 of the cut-off (options.sensitivity) */
     double share_beyond_cutoff; /**< part of cw from t > t_c */
