@@ -140,8 +140,9 @@ static int wanted(int argc, char **argv, const char *section)
 int main(int argc, char **argv)
 {
     if (argc < 2) {
-        fprintf(stderr,
-                "usage: igabem_validation HULL.json [double-body|spheroids|wigley|forms|5415]\n");
+        fprintf(
+            stderr,
+            "usage: igabem_validation HULL.json [double-body|spheroids|wigley|forms|tank|5415]\n");
         return 2;
     }
     printf(
@@ -159,6 +160,8 @@ int main(int argc, char **argv)
         wigley_section();
     if (wanted(argc, argv, "forms"))
         forms_section();
+    if (wanted(argc, argv, "tank"))
+        tank_section();
     if (wanted(argc, argv, "5415"))
         dtmb5415_section(argv[1]);
     return ferror(stdout) || fflush(stdout) ? EXIT_FAILURE : EXIT_SUCCESS;

@@ -26,6 +26,7 @@ void double_body_section(void);
 void spheroid_section(void);
 void wigley_section(void);
 void forms_section(void);
+void tank_section(void);
 void dtmb5415_section(const char *file);
 
 #endif

@@ -60,6 +60,27 @@ static void test_coarse(void)
     check_row(&rows[0]);
 }
 
+/* Free models in Japanese tanks (tests/data/wigley_tank.csv) sink by 2.05e-3 L at Fr 0.30
+ * and 4.75e-3 at 0.405, where they trim by 0.010, bow up. Linear theory is within 20 %. */
+static void test_attitude(void)
+{
+    igabem_hull *hull = wigley_hull(0.1, 0.0625, 1, 1);
+    igabem_forces forces[2];
+    for (int k = 0; k < 2; k++) {
+        igabem_options options = setting(k ? 0.405 : 0.30, 16, 4);
+        igabem_solution *solution = NULL;
+        CU_ASSERT_EQUAL_FATAL(igabem_solve(hull, &options, &solution), IGABEM_OK);
+        CU_ASSERT_EQUAL_FATAL(igabem_forces_compute(solution, &forces[k]), IGABEM_OK);
+        igabem_solution_free(solution);
+    }
+    printf("\n    sinkage %.2e, %.2e L, trim %.4f", forces[0].sinkage, forces[1].sinkage,
+           forces[1].trim);
+    CHECK_RELATIVE(forces[0].sinkage, 2.05e-3, 0.2);
+    CHECK_RELATIVE(forces[1].sinkage, 4.75e-3, 0.2);
+    CHECK_RELATIVE(forces[1].trim, 0.010, 0.2);
+    igabem_hull_free(hull);
+}
+
 #else
 static void test_table(void)
 {
@@ -92,6 +113,7 @@ static const struct check_case cases[] = {
     {"thin-ship limit", test_thin_limit},
 #else
     {"coarsest row of the table", test_coarse},
+    {"sinkage and trim beside tanks", test_attitude},
 #endif
 };
 
