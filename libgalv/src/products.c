@@ -78,23 +78,16 @@ GALV_SIMD static void strips_narrow(const tile *shape, size_t count, const doubl
     add_strips(shape, count, p, q, out, FLAT);
 }
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(ISOHULL_NO_MULTIVERSION)
-__attribute__((target("avx512f,fma"))) static void
-strips_wide(const tile *shape, size_t count, const double *p, const double *q, double *out)
+GALV_SIMD_WIDE static void strips_wide(const tile *shape, size_t count, const double *p,
+                                       const double *q, double *out)
 {
     add_strips(shape, count, p, q, out, TALL);
 }
 
 static strips_function *choose_strips(void)
 {
-    return __builtin_cpu_supports("avx512f") ? strips_wide : strips_narrow;
+    return galv_simd_wide() ? strips_wide : strips_narrow;
 }
-#else
-static strips_function *choose_strips(void)
-{
-    return strips_narrow;
-}
-#endif
 
 size_t galv_padded(size_t b)
 {

@@ -41,25 +41,13 @@ GALV_SIMD static void multiply_narrow(size_t depth, const double *rows, const do
     multiply(depth, rows, columns, tile, 1);
 }
 
-typedef void multiply_function(size_t, const double *, const double *, double *);
-
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(ISOHULL_NO_MULTIVERSION)
-__attribute__((target("avx512f,fma"))) static void
-multiply_wide(size_t depth, const double *rows, const double *columns, double *tile)
+GALV_SIMD_WIDE static void multiply_wide(size_t depth, const double *rows, const double *columns,
+                                         double *tile)
 {
     multiply(depth, rows, columns, tile, 2);
 }
 
-static multiply_function *choose_multiply(void)
-{
-    return __builtin_cpu_supports("avx512f") ? multiply_wide : multiply_narrow;
-}
-#else
-static multiply_function *choose_multiply(void)
-{
-    return multiply_narrow;
-}
-#endif
+typedef void multiply_function(size_t, const double *, const double *, double *);
 
 /* Panels of `width` rows of columns first..first+depth-1 of a: per column, width numbers, zeros
  * beyond n. */
@@ -112,7 +100,7 @@ galv_status galv_rank_update(size_t n, size_t k, double alpha, const double *a, 
     size_t stacks = (n + STACK - 1) / STACK, deepest = k < DEPTH ? k : DEPTH;
     double *rows = malloc(row_panels * ROWS * deepest * sizeof *rows);
     double *columns = malloc(column_panels * COLUMNS * deepest * sizeof *columns);
-    multiply_function *product = choose_multiply();
+    multiply_function *product = galv_simd_wide() ? multiply_wide : multiply_narrow;
     galv_status status = GALV_OK;
     if (!rows || !columns)
         status = galv_fail(GALV_ERROR_MEMORY, "update of a covariance of order %zu", n);

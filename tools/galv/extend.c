@@ -1,9 +1,9 @@
 #include "cli.h"
 #include "commands.h"
+#include "json.h"
 #include "latent_rows.h"
 #include "use.h"
 
-#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -66,28 +66,16 @@ static bool extend(const struct use *use, galv_sampling sampling, galv_model **g
     return ok;
 }
 
-static json_t *array(size_t n, const double *values)
-{
-    json_t *list = json_array();
-    for (size_t i = 0; i < n; i++)
-        json_array_append_new(list, json_real(values[i]));
-    return list;
-}
-
 static int print_json(const galv_model_data *old, const galv_model_data *new)
 {
-    json_t *root = json_pack("{s:I,s:I,s:I,s:f,s:f,s:f,s:f,s:f,s:f,s:o,s:o}", "samples",
-                             (json_int_t) new->samples, "samples_before", (json_int_t)old->samples,
-                             "modes", (json_int_t) new->modes, "retained", new->retained,
-                             "retained_before", old->retained, "trace", new->trace, "trace_before",
-                             old->trace, "subspace_angle", new->confidence.angle, "truncation",
-                             new->truncation, "eigenvalues", array(new->spectrum, new->eigenvalues),
-                             "eigenvalues_before", array(old->spectrum, old->eigenvalues));
-    int failed = !root || json_dumpf(root, stdout, JSON_REAL_PRECISION(17) | JSON_INDENT(1));
-    json_decref(root);
-    if (failed || putchar('\n') == EOF || fflush(stdout) == EOF)
-        return cli_fail("standard output cannot be written");
-    return CLI_OK;
+    return json_print(json_pack(
+        "{s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o}", "samples", json_whole(new->samples),
+        "samples_before", json_whole(old->samples), "modes", json_whole(new->modes), "retained",
+        json_number(new->retained), "retained_before", json_number(old->retained), "trace",
+        json_number(new->trace), "trace_before", json_number(old->trace), "subspace_angle",
+        json_number(new->confidence.angle), "truncation", json_number(new->truncation),
+        "eigenvalues", json_numbers(new->spectrum, new->eigenvalues), "eigenvalues_before",
+        json_numbers(old->spectrum, old->eigenvalues)));
 }
 
 static int print_text(const galv_model_data *old, const galv_model_data *new)

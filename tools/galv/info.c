@@ -1,32 +1,14 @@
 #include "cli.h"
 #include "commands.h"
+#include "json.h"
 #include "use.h"
 
-#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 
 static const char help[] = "usage: galv info MODEL [--json]\n"
                            "\n"
                            "Says what a model file holds.\n";
-
-static json_t *array(size_t n, const double *values)
-{
-    json_t *list = json_array();
-    for (size_t i = 0; i < n; i++)
-        json_array_append_new(list, json_real(values[i]));
-    return list;
-}
-
-static json_t *number(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
-
-static json_t *whole(size_t value)
-{
-    return json_integer((json_int_t)value);
-}
 
 static int print_json(const struct model_file *file)
 {
@@ -37,24 +19,19 @@ static int print_json(const struct model_file *file)
     json_t *root = json_pack(
         "{s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:b,s:s,s:s,"
         "s:s}",
-        "samples", whole(d.samples), "elements", whole(d.points), "coordinates",
-        whole(d.coordinates), "active", whole(d.active), "parameters", whole(d.parameters), "modes",
-        whole(d.modes), "retained", number(d.retained), "retained_geometry",
-        number(d.retained_geometry), "retained_error", number(d.confidence.retained_error),
-        "subspace_angle", number(d.confidence.angle), "trace", number(d.trace), "eigenvalues",
-        array(d.spectrum, d.eigenvalues), "mse", array(d.spectrum, d.mse), "latent_lower",
-        array(d.modes, d.lower), "latent_upper", array(d.modes, d.upper), "radius95",
-        number(radius), "truncation", number(d.truncation), "seed",
-        file->uniform ? whole(file->seed) : json_null(), "sections", whole(file->sections),
-        "centred", d.centred, "method", method_name(d.method), "hull", file->hull, "shape",
-        file->shape.kind == SHAPE_SINES ? "sines" : "lattice");
-    if (!root)
-        return cli_fail("out of memory");
-    int failed = json_dumpf(root, stdout, JSON_REAL_PRECISION(17) | JSON_INDENT(1));
-    json_decref(root);
-    if (failed || putchar('\n') == EOF || fflush(stdout) == EOF)
-        return cli_fail("standard output cannot be written");
-    return CLI_OK;
+        "samples", json_whole(d.samples), "elements", json_whole(d.points), "coordinates",
+        json_whole(d.coordinates), "active", json_whole(d.active), "parameters",
+        json_whole(d.parameters), "modes", json_whole(d.modes), "retained", json_number(d.retained),
+        "retained_geometry", json_number(d.retained_geometry), "retained_error",
+        json_number(d.confidence.retained_error), "subspace_angle", json_number(d.confidence.angle),
+        "trace", json_number(d.trace), "eigenvalues", json_numbers(d.spectrum, d.eigenvalues),
+        "mse", json_numbers(d.spectrum, d.mse), "latent_lower", json_numbers(d.modes, d.lower),
+        "latent_upper", json_numbers(d.modes, d.upper), "radius95", json_number(radius),
+        "truncation", json_number(d.truncation), "seed",
+        file->uniform ? json_whole(file->seed) : json_null(), "sections",
+        json_whole(file->sections), "centred", d.centred, "method", method_name(d.method), "hull",
+        file->hull, "shape", file->shape.kind == SHAPE_SINES ? "sines" : "lattice");
+    return json_print(root);
 }
 
 static int print_text(const struct model_file *file)

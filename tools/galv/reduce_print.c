@@ -1,58 +1,40 @@
 #include "cli.h"
+#include "json.h"
 #include "model_file.h"
 #include "reduce.h"
 
-#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
-
-static json_t *array(size_t n, const double *values)
-{
-    json_t *list = json_array();
-    for (size_t i = 0; i < n; i++)
-        json_array_append_new(list, json_real(values[i]));
-    return list;
-}
-
-/* JSON has no NaN: unknown figures are null. */
-static json_t *number(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
 
 int reduce_print_json(const galv_model *model, const struct reduce_options *options, double seconds)
 {
     size_t spectrum = galv_model_spectrum(model), modes = galv_model_modes(model);
     galv_confidence confidence = galv_model_confidence(model);
     json_t *root = json_object();
-    json_object_set_new(root, "samples", json_integer((json_int_t)galv_model_samples(model)));
-    json_object_set_new(root, "elements", json_integer((json_int_t)galv_model_points(model)));
-    json_object_set_new(root, "coordinates",
-                        json_integer((json_int_t)galv_model_coordinates(model)));
-    json_object_set_new(root, "active", json_integer((json_int_t)galv_model_active(model)));
-    json_object_set_new(root, "parameters", json_integer((json_int_t)galv_model_parameters(model)));
-    json_object_set_new(root, "modes", json_integer((json_int_t)modes));
-    json_object_set_new(root, "retained", number(galv_model_retained(model)));
-    json_object_set_new(root, "retained_geometry", number(galv_model_retained_geometry(model)));
-    json_object_set_new(root, "retained_error", number(confidence.retained_error));
-    json_object_set_new(root, "subspace_angle", number(confidence.angle));
-    json_object_set_new(root, "trace", number(galv_model_trace(model)));
-    json_object_set_new(root, "eigenvalues", array(spectrum, galv_model_eigenvalues(model)));
-    json_object_set_new(root, "residuals", array(spectrum, galv_model_residuals(model)));
-    json_object_set_new(root, "mse", array(spectrum, galv_model_mse(model)));
-    json_object_set_new(root, "latent_lower", array(modes, galv_model_lower(model)));
-    json_object_set_new(root, "latent_upper", array(modes, galv_model_upper(model)));
+    json_object_set_new(root, "samples", json_whole(galv_model_samples(model)));
+    json_object_set_new(root, "elements", json_whole(galv_model_points(model)));
+    json_object_set_new(root, "coordinates", json_whole(galv_model_coordinates(model)));
+    json_object_set_new(root, "active", json_whole(galv_model_active(model)));
+    json_object_set_new(root, "parameters", json_whole(galv_model_parameters(model)));
+    json_object_set_new(root, "modes", json_whole(modes));
+    json_object_set_new(root, "retained", json_number(galv_model_retained(model)));
+    json_object_set_new(root, "retained_geometry",
+                        json_number(galv_model_retained_geometry(model)));
+    json_object_set_new(root, "retained_error", json_number(confidence.retained_error));
+    json_object_set_new(root, "subspace_angle", json_number(confidence.angle));
+    json_object_set_new(root, "trace", json_number(galv_model_trace(model)));
+    json_object_set_new(root, "eigenvalues", json_numbers(spectrum, galv_model_eigenvalues(model)));
+    json_object_set_new(root, "residuals", json_numbers(spectrum, galv_model_residuals(model)));
+    json_object_set_new(root, "mse", json_numbers(spectrum, galv_model_mse(model)));
+    json_object_set_new(root, "latent_lower", json_numbers(modes, galv_model_lower(model)));
+    json_object_set_new(root, "latent_upper", json_numbers(modes, galv_model_upper(model)));
     json_object_set_new(root, "centred", json_boolean(options->build.centre));
     json_object_set_new(root, "weights", json_string(options->area_weights ? "area" : "equal"));
     json_object_set_new(root, "method", json_string(method_name(galv_model_method(model))));
     if (options->random)
-        json_object_set_new(root, "seed", json_integer((json_int_t)options->seed));
-    json_object_set_new(root, "seconds", number(seconds));
-    int failed = json_dumpf(root, stdout, JSON_REAL_PRECISION(17) | JSON_INDENT(1));
-    json_decref(root);
-    if (failed || putchar('\n') == EOF || fflush(stdout) == EOF)
-        return cli_fail("standard output cannot be written");
-    return CLI_OK;
+        json_object_set_new(root, "seed", json_whole(options->seed));
+    json_object_set_new(root, "seconds", json_number(seconds));
+    return json_print(root);
 }
 
 int reduce_print_text(const galv_model *model, const struct reduce_options *options, double seconds)

@@ -1,9 +1,8 @@
 #include "results.h"
 
 #include "cli.h"
+#include "json.h"
 
-#include <jansson.h>
-#include <math.h>
 #include <stdio.h>
 
 static int print_csv(size_t rows, const char *prefix, size_t width, const double *values,
@@ -34,16 +33,11 @@ int results_print(bool json, size_t rows, const char *prefix, size_t width, cons
         json_t *row = json_object();
         for (size_t k = 0; k < width; k++) {
             snprintf(name, sizeof name, "%s%zu", prefix, k + 1);
-            json_object_set_new(row, name, json_real(values[r * width + k]));
+            json_object_set_new(row, name, json_number(values[r * width + k]));
         }
         for (size_t k = 0; k < extras; k++)
-            json_object_set_new(row, names[k], json_real(more[r * extras + k]));
+            json_object_set_new(row, names[k], json_number(more[r * extras + k]));
         json_array_append_new(list, row);
     }
-    json_t *root = json_pack("{s:o}", "rows", list);
-    int failed = !root || json_dumpf(root, stdout, JSON_REAL_PRECISION(17) | JSON_INDENT(1)) != 0;
-    json_decref(root);
-    if (failed || putchar('\n') == EOF || fflush(stdout) == EOF)
-        return cli_fail("standard output cannot be written");
-    return CLI_OK;
+    return json_print(json_pack("{s:o}", "rows", list));
 }
