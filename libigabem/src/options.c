@@ -6,7 +6,7 @@
 #include <string.h>
 
 static const double irregular_spans = 3.0;
-static const double transom_stem_factor = 1.44, stem_factor = 2.0;
+static const double transom_stem_factor = 1.2, stem_factor = 2.0;
 /* x_s - x_aft: this share of the length, at lower speeds 0.45 transverse wave lengths 2 pi/k0. */
 static const double stern_share = 0.35, stern_froude = 0.35;
 

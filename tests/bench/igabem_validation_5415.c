@@ -137,7 +137,7 @@ static void formulations(const char *file)
     printf("### Formulations at Fr 0.35\n\nC_w x 1000 by Kochin function (by pressure) on four "
            "levels: uniform knots of the density's own, 24 x 8, 32 x 10,\n40 x 12 and 56 x 16 "
            "spans, on the hull simplified within 1e-4 of its length. Default: x_s = 2.03 m, "
-           "t_c nu_s = 1.2,\nstem limiter 1.44 nu_s.\n\n| formulation |");
+           "t_c nu_s = 1.2,\nstem limiter 1.2 nu_s.\n\n| formulation |");
     for (int l = 0; l < LEVELS; l++)
         printf(" %zu unknowns |", forces[l][0].dofs);
     printf(" condition |\n|---|---|---|---|---|---|\n");

@@ -1,6 +1,6 @@
 /* The DTMB 5415, wetted at z = 0 and simplified within 1e-4 of its length, Fr 0.35, stern variant
- * with x_s 0.35 L, t_c = 1.2/nu_s, nu_c = 1.44 nu_s. An independent prototype on its own fit of the
- * hull found C_w 1.585e-3 (645 unknowns) and 1.588e-3 (867). */
+ * with x_s 0.35 L, t_c = 1.2/nu_s. An independent prototype on its own fit of the hull found C_w
+ * 1.585e-3 (645 unknowns) and 1.588e-3 (867) with nu_c = 1.44 nu_s. */
 #include "check.h"
 
 #include <igabem/igabem.h>
@@ -40,6 +40,9 @@ static double resistance(const igabem_hull *hull, int nu, int nv)
     options.froude = 0.35;
     options.elements_u = nu;
     options.elements_v = nv;
+    igabem_hull_info info;
+    igabem_hull_get_info(hull, &info);
+    options.stem_limit = 1.44 * info.nu_s;
     igabem_status status = igabem_solve(hull, &options, &solution);
     if (status != IGABEM_OK)
         fprintf(stderr, "solve: %s\n", igabem_last_error());
@@ -70,9 +73,43 @@ static void test_simplification(void)
     igabem_hull_free(fine);
 }
 
+/* The default formulation has a plateau in the cut-off, also where the original limiter of the line
+ * term (1.44 nu_s) leaves 9 %, at Fr 0.41. */
+static void test_plateau(void)
+{
+    enum { N = 4, SPEEDS = 2 };
+    static const double factor[N] = {0.75, 0.9, 1.2, 1.5}, froude[SPEEDS] = {0.35, 0.41};
+    igabem_hull *hull = wetted_hull(1e-4);
+    igabem_options options[N * SPEEDS];
+    igabem_solution *solutions[N * SPEEDS];
+    for (int k = 0; k < N * SPEEDS; k++) {
+        igabem_options_init(&options[k]);
+        options[k].froude = froude[k / N];
+        options[k].elements_u = 24;
+        options[k].elements_v = 8;
+        options[k].cutoff_factor = factor[k % N];
+    }
+    CU_ASSERT_EQUAL_FATAL(igabem_solve_many(hull, N * SPEEDS, options, solutions), IGABEM_OK);
+    for (int s = 0; s < SPEEDS; s++) {
+        double low = INFINITY, high = 0.0;
+        for (int k = N * s; k < N * s + N; k++) {
+            igabem_forces forces;
+            CU_ASSERT_EQUAL_FATAL(igabem_forces_compute(solutions[k], &forces), IGABEM_OK);
+            low = fmin(low, forces.cw);
+            high = fmax(high, forces.cw);
+        }
+        printf("\n    Fr %.2f: C_w %.4e to %.4e", froude[s], low, high);
+        CU_ASSERT(high < 1.03 * low);
+    }
+    for (int k = 0; k < N * SPEEDS; k++)
+        igabem_solution_free(solutions[k]);
+    igabem_hull_free(hull);
+}
+
 static const struct check_case cases[] = {
     {"refinement", test_refinement},
     {"simplification of the shape", test_simplification},
+    {"plateau in the cut-off", test_plateau},
 };
 
 CHECK_MAIN("dtmb5415", cases)

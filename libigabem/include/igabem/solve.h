@@ -71,7 +71,7 @@ typedef struct igabem_options {
     double cutoff_angle;  /**< t_c of the filter exp(-((1+t^2)/(1+t_c^2))^2), t = tan(theta); NAN:
                              cutoff_factor/nu_s;  INFINITY: no filter (the default when submerged) */
     double cutoff_factor; /**< 1.2 */
-    double stem_limit;    /**< nu_c of chi = 1/(1+(|nu_x|/nu_c)^4); NAN: 2 nu_s, with a transom 1.44
+    double stem_limit;    /**< nu_c of chi = 1/(1+(|nu_x|/nu_c)^4); NAN: 2 nu_s, with a transom 1.2
                              nu_s */
     double stern_length;  /**< x_s - x_aft of neumann-kelvin-stern as a share of the length, 0 to 1;
                              NAN: 0.35 min(1, (Fr/0.35)^2), below Fr 0.35 this is 2.86 U^2/g */
