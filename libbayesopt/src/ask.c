@@ -16,6 +16,38 @@ static size_t count_phase(const struct bayesopt *bo, bayesopt_phase phase)
     return count;
 }
 
+static double square_distance(size_t d, const double *a, const double *b)
+{
+    double sum = 0;
+    for (size_t j = 0; j < d; j++)
+        sum += (a[j] - b[j]) * (a[j] - b[j]);
+    return sum;
+}
+
+/* Puts first those rows that cover the box by themselves: each next one is the farthest from all
+ * before. With two levels the first of them are evaluated at the dear one too. */
+static void cover_first(size_t n, size_t d, double *x)
+{
+    for (size_t k = 1; k < n; k++) {
+        size_t farthest = k;
+        double most = -1;
+        for (size_t i = k; i < n; i++) {
+            double nearest = INFINITY;
+            for (size_t c = 0; c < k; c++)
+                nearest = fmin(nearest, square_distance(d, x + i * d, x + c * d));
+            if (nearest > most) {
+                most = nearest;
+                farthest = i;
+            }
+        }
+        for (size_t j = 0; j < d && farthest != k; j++) {
+            double kept = x[k * d + j];
+            x[k * d + j] = x[farthest * d + j];
+            x[farthest * d + j] = kept;
+        }
+    }
+}
+
 static bayesopt_status make_design(struct bayesopt *bo)
 {
     size_t n = bo->options.initial_n, d = bo->d;
@@ -36,6 +68,8 @@ static bayesopt_status make_design(struct bayesopt *bo)
         options.constraint = bo->region.constraint;
         options.constraint_data = bo->region.data;
         status = bayesopt_design(bo->options.initial_kind, n, d, &options, design);
+        if (!status && bo->options.n_levels > 1)
+            cover_first(n, d, design);
     }
     if (status) {
         free(design);

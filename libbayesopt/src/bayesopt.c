@@ -37,7 +37,11 @@ void bayesopt_options_init(bayesopt_options *options)
         .scales = BAYESOPT_SCALES_AUTO,
         .transform = BAYESOPT_TRANSFORM_AUTO,
         .strategy = BAYESOPT_STRATEGY_AUTO,
+        .mean = BAYESOPT_MEAN_CONSTANT,
+        .choice = BAYESOPT_CHOICE_POSTERIOR,
         .polish = true,
+        .acquisition = BAYESOPT_ACQUISITION_EI,
+        .lcb_factor = 2,
         .n_levels = 1,
         .level_cost_ratio = 0.1,
     };
@@ -61,14 +65,19 @@ static bayesopt_status check_enumerations(const bayesopt_options *o)
     if ((unsigned)o->initial_kind > BAYESOPT_DESIGN_STLBO ||
         (unsigned)o->noise > BAYESOPT_NOISE_LEARNED ||
         (unsigned)o->kernel > BAYESOPT_KERNEL_MATERN52 ||
-        (unsigned)o->scales > BAYESOPT_SCALES_AUTO || o->scales == BAYESOPT_SCALES_TIED ||
+        (unsigned)o->scales > BAYESOPT_SCALES_AUTO ||
+        (o->mean != BAYESOPT_MEAN_CONSTANT && o->mean != BAYESOPT_MEAN_LINEAR) ||
+        (unsigned)o->choice > BAYESOPT_CHOICE_LOO ||
         (unsigned)o->transform > BAYESOPT_TRANSFORM_AUTO ||
-        (unsigned)o->strategy > BAYESOPT_STRATEGY_LOCAL)
+        (unsigned)o->strategy > BAYESOPT_STRATEGY_LOCAL ||
+        (unsigned)o->acquisition > BAYESOPT_ACQUISITION_LCB)
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
                              "an option is outside its list: initial_kind %d, noise %d, kernel %d, "
-                             "scales %d, transform %d, strategy %d",
+                             "scales %d, mean %d, choice %d, transform %d, strategy %d, "
+                             "acquisition %d",
                              (int)o->initial_kind, (int)o->noise, (int)o->kernel, (int)o->scales,
-                             (int)o->transform, (int)o->strategy);
+                             (int)o->mean, (int)o->choice, (int)o->transform, (int)o->strategy,
+                             (int)o->acquisition);
     return BAYESOPT_OK;
 }
 
@@ -105,6 +114,9 @@ static bayesopt_status check_options(size_t d, const double *lower, const double
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
                              "%zu levels of cost ratio %g, expected 1 or 2 and a ratio in (0, 1]",
                              o->n_levels, o->level_cost_ratio);
+    if (!(o->lcb_factor > 0 && isfinite(o->lcb_factor)))
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "lcb_factor is %g, expected positive",
+                             o->lcb_factor);
     if (!(o->stop_expected_improvement >= 0))
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
                              "stop_expected_improvement is %g, expected not negative",
@@ -128,6 +140,29 @@ static int region_callback(void *data, size_t d, const double *u, double *value)
                                         value + bo->options.n_linear);
 }
 
+/* The group of each variable, checked by the regression that will use it; *copy stays NULL unless
+ * scales are tied. */
+static bayesopt_status copy_groups(size_t d, const bayesopt_options *o, size_t **copy)
+{
+    bayesopt_gp_options gp_options;
+    bayesopt_gp *gp;
+    *copy = NULL;
+    if (o->scales != BAYESOPT_SCALES_TIED)
+        return BAYESOPT_OK;
+    bayesopt_gp_options_init(&gp_options);
+    gp_options.scales = o->scales;
+    gp_options.group = o->group;
+    bayesopt_status status = bayesopt_gp_create(d, &gp_options, &gp);
+    if (status)
+        return status;
+    bayesopt_gp_free(gp);
+    *copy = malloc(d * sizeof **copy);
+    if (!*copy)
+        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
+    memcpy(*copy, o->group, d * sizeof **copy);
+    return BAYESOPT_OK;
+}
+
 static double *copy(const double *from, size_t n, double otherwise)
 {
     double *to = malloc((n ? n : 1) * sizeof *to);
@@ -147,14 +182,20 @@ bayesopt_status bayesopt_create(size_t d, const double *lower, const double *upp
     bayesopt_status status = check_box(d, lower, upper);
     if (!status)
         status = check_options(d, lower, upper, options);
+    size_t *group = NULL;
+    if (!status)
+        status = copy_groups(d, options, &group);
     if (status)
         return status;
     struct bayesopt *bo = calloc(1, sizeof *bo);
-    if (!bo)
+    if (!bo) {
+        free(group);
         return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
+    }
     const bayesopt_options *o = options;
     bo->d = d;
     bo->options = *o;
+    bo->options.group = bo->group = group;
     if (!o->initial_n)
         bo->options.initial_n = 10 * d < 200 ? 10 * d : 200;
     bo->session = 1;
@@ -191,6 +232,7 @@ void bayesopt_free(bayesopt *bo)
     store_close(bo);
     history_truncate(bo, 0);
     free(bo->points);
+    free(bo->group);
     surrogates_free(&bo->surrogates);
     region_free(&bo->region);
     double *arrays[] = {bo->lower,    bo->upper,    bo->constraint_lower, bo->constraint_upper,
@@ -247,6 +289,11 @@ size_t bayesopt_constraint_count(const bayesopt *bo, double *lower, double *uppe
 size_t bayesopt_budget(const bayesopt *bo)
 {
     return problem_budget(bo);
+}
+
+size_t bayesopt_level_count(const bayesopt *bo)
+{
+    return bo->options.n_levels;
 }
 
 size_t bayesopt_initial_count(const bayesopt *bo)

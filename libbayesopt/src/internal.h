@@ -32,6 +32,7 @@ struct bayesopt {
     double *lower, *upper;
     bayesopt_options options; /* pointers in it refer to the copies below */
     double *initial_x, *constraint_lower, *constraint_upper, *linear_a, *linear_b;
+    size_t *group; /* [d] or NULL */
 
     struct region region;     /* linear and callback constraints on [0,1]^d */
     double *constraint_x;     /* [d] scratch of the region's callback */

@@ -8,15 +8,17 @@
 
 #include "error.h"
 #include "label.h"
+#include "noisy.h"
 
 enum { NEIGHBOURS = 200, CENTRES = 5, ASCENT_EVALUATIONS = 60 };
 
 struct climber {
     struct bayesopt *bo;
     const struct search *search;
-    bool improvement; /* there is a feasible point to improve on */
-    double best;      /* its value in modelled units */
-    double unit;      /* what the quadratic's values are measured in */
+    bool improvement;    /* there is a feasible point to improve on */
+    double best;         /* its value in modelled units */
+    struct noisy *noisy; /* replaces best with noise and one level, else NULL */
+    double unit;         /* what the quadratic's values are measured in */
     double *work, *dmean, *dvar;
     double *constraint_lower, *constraint_upper; /* modelled units */
     double *best_u, best_value;                  /* of the present ascent */
@@ -76,6 +78,32 @@ static bayesopt_status find_incumbent(struct climber *c)
     return BAYESOPT_OK;
 }
 
+/* With noise the expected improvement is one over what the values at the evaluated points may be.
+ * Rows of the objective's data follow the history; what was believed or derived comes after. */
+static bayesopt_status prepare_noisy(struct climber *c)
+{
+    const struct bayesopt *bo = c->bo;
+    const bayesopt_gp *gp = bo->surrogates.gps[0];
+    if (!c->improvement || c->search->goal != SEARCH_IMPROVEMENT ||
+        bo->options.acquisition != BAYESOPT_ACQUISITION_EI || bo->options.n_levels > 1 ||
+        bo->options.noise == BAYESOPT_NOISE_DETERMINISTIC)
+        return BAYESOPT_OK;
+    bayesopt_gp_info info;
+    bayesopt_status status = bayesopt_gp_get_info(gp, &info);
+    bool *eligible = calloc(info.n ? info.n : 1, sizeof *eligible);
+    size_t row = 0;
+    if (!eligible)
+        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
+    for (size_t i = 0; i < bo->n_points && row < info.n; i++)
+        if (bo->points[i].state == BAYESOPT_STATE_DONE)
+            eligible[row++] = point_feasible(bo, &bo->points[i]);
+    uint64_t seed = random_hash(bo->options.seed ^ random_hash(c->search->id + 1));
+    if (!status)
+        status = noisy_create(gp, eligible, seed, &c->noisy);
+    free(eligible);
+    return status;
+}
+
 /* Acquisition from means and variances of all models; derivatives in them when wanted. */
 static double combine(const struct climber *c, size_t stride, const double *mean, const double *var,
                       double *by_mean, double *by_var)
@@ -95,6 +123,13 @@ static double combine(const struct climber *c, size_t stride, const double *mean
         } else if (c->search->goal != SEARCH_IMPROVEMENT && c->improvement) {
             value -= mean[0];
             dm = -1;
+        } else if (c->noisy) {
+            value += mean[0]; /* put there by follow_noisy() */
+            dm = 1;
+        } else if (c->improvement && c->bo->options.acquisition == BAYESOPT_ACQUISITION_LCB) {
+            value -= bayesopt_lcb(mean[0], sd, c->bo->options.lcb_factor);
+            dm = -1;
+            ds = c->bo->options.lcb_factor;
         } else if (c->improvement) {
             value += bayesopt_log_ei(mean[0], sd, c->best, &dm, &ds);
         }
@@ -119,6 +154,16 @@ static double follow_quadratic(const struct climber *c, const double *u, double 
     return 0;
 }
 
+/* Likewise the noisy expected improvement, which needs no more of the objective's model. */
+static double follow_noisy(const struct climber *c, const double *u, double *mean, double *dmean,
+                           double *dvar)
+{
+    *mean = noisy_log_ei(c->noisy, u, dmean, c->work);
+    for (size_t j = 0; j < c->bo->d && dmean; j++)
+        dvar[j] = 0;
+    return 0;
+}
+
 static double climb_value(struct climber *c, const double *u, double *gradient)
 {
     const struct surrogates *s = &c->bo->surrogates;
@@ -127,6 +172,8 @@ static double climb_value(struct climber *c, const double *u, double *gradient)
     bayesopt_status status = BAYESOPT_OK;
     if (c->search->goal == SEARCH_QUADRATIC)
         var[0] = follow_quadratic(c, u, &mean[0], c->dmean, c->dvar);
+    else if (c->noisy)
+        var[0] = follow_noisy(c, u, &mean[0], c->dmean, c->dvar);
     else
         status =
             surrogates_predict_gradient(c->bo, u, &mean[0], &var[0], c->dmean, c->dvar, c->work);
@@ -303,10 +350,14 @@ static bayesopt_status score(struct climber *c, size_t n, const double *x, doubl
         return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
     double *var = mean + n * s->count;
     bayesopt_status status = BAYESOPT_OK;
-    if (c->search->goal != SEARCH_QUADRATIC)
+    bool quadratic = c->search->goal == SEARCH_QUADRATIC;
+    if (!quadratic && !c->noisy)
         status = surrogates_predict(c->bo, n, x, mean, var);
-    for (size_t i = 0; i < n && c->search->goal == SEARCH_QUADRATIC; i++)
-        var[i] = follow_quadratic(c, x + i * c->bo->d, &mean[i], NULL, NULL);
+    for (size_t i = 0; i < n && (quadratic || c->noisy); i++) {
+        const double *at = x + i * c->bo->d;
+        var[i] = quadratic ? follow_quadratic(c, at, &mean[i], NULL, NULL)
+                           : follow_noisy(c, at, &mean[i], NULL, NULL);
+    }
     for (size_t g = 1; g < s->count && !status; g++)
         if (s->gps[g])
             status = bayesopt_gp_predict(s->gps[g], n, x, mean + g * n, var + g * n);
@@ -409,6 +460,8 @@ bayesopt_status search_run(struct bayesopt *bo, const struct search *search, dou
     double *values = x + n * bo->d;
     bayesopt_status status = find_incumbent(&c);
     if (!status)
+        status = prepare_noisy(&c);
+    if (!status)
         status = make_candidates(bo, search, x, &n);
     if (!status)
         status = score(&c, n, x, values);
@@ -423,6 +476,7 @@ bayesopt_status search_run(struct bayesopt *bo, const struct search *search, dou
                                    "no point found that satisfies the %zu input constraints",
                                    bo->region.m);
     }
+    noisy_free(c.noisy);
     free(c.work);
     free(x);
     return status;

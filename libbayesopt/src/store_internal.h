@@ -20,7 +20,7 @@ struct field {
     size_t n;
     double *values;
 };
-enum { FIELDS = 20 };
+enum { FIELDS = 22 };
 
 /* Fills fields [FIELDS] with the problem of bo; free each values. false: out of memory. */
 bool problem_fields(const struct bayesopt *bo, struct field *fields);

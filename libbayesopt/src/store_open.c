@@ -45,8 +45,16 @@ enum {
     POLISH,
     N_LEVELS,
     LEVEL_COST_RATIO,
+    MODEL,
+    GROUP,
     STOPS
 };
+
+/* Stores of version 0.1.0 know nothing of these; they have the default values. */
+static bool is_recent(size_t field)
+{
+    return field == MODEL || field == GROUP;
+}
 
 bool problem_fields(const struct bayesopt *bo, struct field *f)
 {
@@ -56,7 +64,12 @@ bool problem_fields(const struct bayesopt *bo, struct field *f)
     double scales = o->scales, transform = o->transform, strategy = o->strategy, polish = o->polish;
     double levels = (double)o->n_levels;
     double stops[2] = {(double)o->stop_no_improvement, o->stop_expected_improvement};
+    double model[4] = {o->mean, o->choice, o->acquisition, o->lcb_factor}, *group = NULL;
     split_seed(o->seed, seed);
+    if (bo->group && !(group = malloc(bo->d * sizeof *group)))
+        return false;
+    for (size_t j = 0; j < bo->d && group; j++)
+        group[j] = (double)bo->group[j];
     const struct {
         const char *name;
         size_t n;
@@ -81,6 +94,8 @@ bool problem_fields(const struct bayesopt *bo, struct field *f)
         [POLISH] = {"polish", 1, &polish},
         [N_LEVELS] = {"n_levels", 1, &levels},
         [LEVEL_COST_RATIO] = {"level_cost_ratio", 1, &o->level_cost_ratio},
+        [MODEL] = {"model", 4, model},
+        [GROUP] = {"group", group ? bo->d : 0, group},
         [STOPS] = {"stops", 2, stops},
     };
     bool ok = true;
@@ -88,6 +103,7 @@ bool problem_fields(const struct bayesopt *bo, struct field *f)
         f[i] = (struct field){list[i].name, list[i].n, numbers(list[i].n, list[i].from)};
         ok = ok && f[i].values;
     }
+    free(group);
     return ok;
 }
 
@@ -169,11 +185,13 @@ static bayesopt_status check_format(struct store *store)
     return status;
 }
 
-static bayesopt_status compare_field(struct store *store, const struct field *field)
+static bayesopt_status compare_field(struct store *store, const struct field *field, bool recent)
 {
     double *values;
     size_t n;
     bayesopt_status status = store_get_meta(store, field->name, &values, &n);
+    if (!status && !values && recent)
+        return BAYESOPT_OK;
     if (!status && (!values || n != field->n))
         status =
             bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
@@ -196,7 +214,7 @@ static bayesopt_status compare_problem(struct bayesopt *bo)
                                  ? BAYESOPT_OK
                                  : bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
     for (size_t i = 0; i < STOPS && !status; i++)
-        status = compare_field(bo->store, &fields[i]);
+        status = compare_field(bo->store, &fields[i], is_recent(i));
     problem_fields_free(fields);
     return status ? status : store_put_budget(bo);
 }
@@ -312,8 +330,13 @@ static bayesopt_status create_from_fields(const struct field *f, double budget,
                                           void *input_data, bayesopt **bo)
 {
     bayesopt_options o;
-    size_t d = f[BOX_LOWER].n;
+    size_t d = f[BOX_LOWER].n, *group = malloc(d * sizeof *group);
+    if (!group)
+        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
+    for (size_t j = 0; j < f[GROUP].n; j++)
+        group[j] = (size_t)f[GROUP].values[j];
     bayesopt_options_init(&o);
+    o.group = f[GROUP].n ? group : NULL;
     o.seed = ((uint64_t)first(&f[SEED]) << 32) | (uint64_t)f[SEED].values[1];
     o.max_evaluations = (size_t)budget;
     o.initial_kind = (bayesopt_design_kind)first(&f[INITIAL_KIND]);
@@ -331,6 +354,10 @@ static bayesopt_status create_from_fields(const struct field *f, double budget,
     o.transform = (bayesopt_transform)first(&f[TRANSFORM]);
     o.strategy = (bayesopt_strategy)first(&f[STRATEGY]);
     o.polish = first(&f[POLISH]) != 0;
+    o.mean = (bayesopt_mean)f[MODEL].values[0];
+    o.choice = (bayesopt_choice)f[MODEL].values[1];
+    o.acquisition = (bayesopt_acquisition)f[MODEL].values[2];
+    o.lcb_factor = f[MODEL].values[3];
     o.n_levels = (size_t)first(&f[N_LEVELS]);
     o.level_cost_ratio = first(&f[LEVEL_COST_RATIO]);
     o.stop_no_improvement = (size_t)first(&f[STOPS]);
@@ -343,6 +370,7 @@ static bayesopt_status create_from_fields(const struct field *f, double budget,
     if (missing)
         o.n_input_constraints = 0;
     bayesopt_status status = bayesopt_create(d, f[BOX_LOWER].values, f[BOX_UPPER].values, &o, bo);
+    free(group);
     if (!status && missing) {
         (*bo)->options.n_input_constraints = wanted;
         (*bo)->constraints_missing = true;
@@ -352,7 +380,7 @@ static bayesopt_status create_from_fields(const struct field *f, double budget,
 
 static bool is_array(size_t field)
 {
-    return field <= BOX_UPPER || (field >= INITIAL_X && field <= LINEAR_B);
+    return field <= BOX_UPPER || (field >= INITIAL_X && field <= LINEAR_B) || field == GROUP;
 }
 
 /* Arrays must fit each other, everything else has the length it has in any problem. */
@@ -365,7 +393,7 @@ static bayesopt_status check_lengths(const struct store *store, const struct fie
             return bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: entry '%s' is damaged", store->path,
                                  f[i].name);
     if (!d || f[BOX_UPPER].n != d || f[CONSTRAINT_UPPER].n != m ||
-        f[LINEAR_A].n != f[LINEAR_B].n * d ||
+        f[LINEAR_A].n != f[LINEAR_B].n * d || (f[GROUP].n && f[GROUP].n != d) ||
         (initial && (double)initial != first(&f[INITIAL_N]) * (double)d))
         return bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: its entries do not agree in length",
                              store->path);
@@ -387,9 +415,12 @@ static bayesopt_status read_fields(struct store *store, struct field *fields, do
     status = ok ? check_format(store) : bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
     for (size_t i = 0; i < FIELDS && !status; i++) {
         expected[i] = fields[i].n;
+        status = store_get_meta(store, fields[i].name, &values, &n);
+        if (!status && !values && is_recent(i))
+            continue;
         free(fields[i].values);
-        fields[i].values = NULL;
-        status = store_get_meta(store, fields[i].name, &fields[i].values, &fields[i].n);
+        fields[i].values = values;
+        fields[i].n = n;
     }
     if (!status)
         status = check_lengths(store, fields, expected);

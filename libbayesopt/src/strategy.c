@@ -280,7 +280,8 @@ static bool little_expected(const struct bayesopt *bo, double log_improvement)
 {
     bool feasible;
     size_t best = history_best(bo, &feasible);
-    if (!(bo->options.stop_expected_improvement > 0) || !feasible)
+    if (!(bo->options.stop_expected_improvement > 0) || !feasible ||
+        bo->options.acquisition != BAYESOPT_ACQUISITION_EI)
         return false;
     const bayesopt_gp *gp = bo->surrogates.gps[0];
     double f = bo->points[best].f, modelled = bayesopt_gp_to_model(gp, f);

@@ -160,8 +160,11 @@ static void model_options(const struct bayesopt *bo, size_t which, bayesopt_gp_o
     o->seed = random_hash(bo->options.seed) + which;
     o->kernel = bo->options.kernel;
     o->scales = bo->options.scales;
+    o->group = bo->group;
+    o->choice = bo->options.choice;
     if (which == 0 || which == bo->surrogates.count) {
         o->noise = bo->options.noise;
+        o->mean = bo->options.mean;
         /* Two levels are added up, in units of the objective. */
         o->transform = bo->options.n_levels == 1 ? bo->options.transform : BAYESOPT_TRANSFORM_NONE;
     } else if (bo->options.noise != BAYESOPT_NOISE_DETERMINISTIC) {
@@ -233,8 +236,56 @@ static bayesopt_status fit_one(struct bayesopt *bo, size_t which, const struct s
     return status;
 }
 
-/* The cheap level first; then share by regression of dear values on its predictions, and the dear
- * values of the sample become differences. */
+/* Takes the part along a unit vector out of another. */
+static void remove_along(size_t n, const double *unit, double *from)
+{
+    double along = 0;
+    for (size_t i = 0; i < n; i++)
+        along += unit[i] * from[i];
+    for (size_t i = 0; i < n; i++)
+        from[i] -= along * unit[i];
+}
+
+static void scale_to_unit(size_t n, double *vector)
+{
+    double square = 0;
+    for (size_t i = 0; i < n; i++)
+        square += vector[i] * vector[i];
+    for (size_t i = 0; i < n && square > 0; i++)
+        vector[i] /= sqrt(square);
+}
+
+/* Least-squares factor of the cheap values in the dear ones beside a constant and, with points to
+ * spare, a slope in every variable: levels often differ by a tilt. work [n (d + 3)]. */
+static double estimate_share(size_t n, size_t d, const double *x, const double *low,
+                             const double *high, double *work)
+{
+    size_t columns = n > d + 3 ? d + 1 : 1;
+    double *a = work, *b = a + n, *basis = b + n, before = 0, square = 0, cross = 0;
+    if (n <= 2)
+        return 1;
+    memcpy(a, low, n * sizeof *a);
+    memcpy(b, high, n * sizeof *b);
+    for (size_t c = 0; c < columns; c++) {
+        double *column = basis + c * n;
+        for (size_t i = 0; i < n; i++)
+            column[i] = c ? x[i * d + c - 1] : 1;
+        for (size_t k = 0; k < c; k++)
+            remove_along(n, basis + k * n, column);
+        scale_to_unit(n, column);
+        remove_along(n, column, a);
+        remove_along(n, column, b);
+        for (size_t i = 0; i < n && c == 0; i++)
+            before += a[i] * a[i];
+    }
+    for (size_t i = 0; i < n; i++) {
+        square += a[i] * a[i];
+        cross += a[i] * b[i];
+    }
+    return square > 1e-6 * before ? cross / square : 1;
+}
+
+/* The cheap level first; then the share, and the dear values of the sample become differences. */
 static bayesopt_status subtract_cheap(struct bayesopt *bo, struct sample *sample, bool keep)
 {
     struct surrogates *s = &bo->surrogates;
@@ -246,21 +297,13 @@ static bayesopt_status subtract_cheap(struct bayesopt *bo, struct sample *sample
     free(cheap.x);
     if (status || !s->cheap || !sample->n)
         return status;
-    double *low = malloc(sample->n * sizeof *low), n = (double)sample->n;
-    double mean_low = 0, mean_high = 0, cross = 0, square = 0;
+    double *low = malloc(sample->n * (bo->d + 4) * sizeof *low);
     if (!low)
         return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
     status = bayesopt_gp_predict(s->cheap, sample->n, sample->x, low, NULL);
-    for (size_t i = 0; i < sample->n; i++) {
+    for (size_t i = 0; i < sample->n; i++)
         low[i] = bayesopt_gp_from_model(s->cheap, low[i]);
-        mean_low += low[i] / n;
-        mean_high += sample->y[i] / n;
-    }
-    for (size_t i = 0; i < sample->n; i++) {
-        cross += (low[i] - mean_low) * (sample->y[i] - mean_high);
-        square += (low[i] - mean_low) * (low[i] - mean_low);
-    }
-    s->share = sample->n > 2 && square > 0 ? cross / square : 1;
+    s->share = estimate_share(sample->n, bo->d, sample->x, low, sample->y, low + sample->n);
     for (size_t i = 0; i < sample->n; i++)
         sample->y[i] -= s->share * low[i];
     free(low);

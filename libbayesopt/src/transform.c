@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <bayesopt/acquisition.h>
+
 void transform_reset(struct transform *transform)
 {
     *transform = (struct transform){.kind = BAYESOPT_TRANSFORM_NONE, .unit = 1, .scale = 1};
@@ -97,13 +99,15 @@ static double best_lambda(size_t n, const double *u)
     return (a + b) / 2;
 }
 
-/* Inverse of the normal distribution by Newton's iteration from a logistic start. */
-static double normal_score(double p)
+/* Newton's iteration for log Phi(z) = log p, which is concave: from the left of the root, where
+ * Phi(z) < exp(-z^2/2)/2 puts the start, it ascends to it. */
+double transform_normal_score(double p)
 {
-    double z = log(p / (1 - p)) / 1.702;
-    for (int i = 0; i < 8; i++)
-        z -= (erfc(-z * 0.70710678118654752440) / 2 - p) /
-             (exp(-z * z / 2) * 0.39894228040143267794);
+    if (p > 0.5)
+        return -transform_normal_score(1 - p);
+    double z = -sqrt(-2 * log(p));
+    for (int i = 0; i < 20; i++)
+        z -= (bayesopt_log_cdf(z) - log(p)) / bayesopt_log_cdf_derivative(z);
     return z;
 }
 
@@ -119,7 +123,7 @@ static bool estimate_ranks(struct transform *transform, size_t n, const double *
         while (end < n && sorted[end] == sorted[i])
             end++;
         transform->knots[m] = sorted[i];
-        transform->scores[m++] = normal_score((double)(i + end) / 2 / (double)n);
+        transform->scores[m++] = transform_normal_score((double)(i + end) / 2 / (double)n);
         i = end;
     }
     transform->n = m;

@@ -24,6 +24,8 @@ bool transform_estimate(struct transform *transform, bayesopt_transform kind, si
                         const double *y);
 double transform_apply(const struct transform *transform, double y);
 double transform_invert(const struct transform *transform, double value);
+/* Inverse of the standard normal distribution, 0 < p < 1. */
+double transform_normal_score(double p);
 /* d modelled/dy. */
 double transform_slope(const struct transform *transform, double y);
 

@@ -92,6 +92,44 @@ for reason in 'exit status 7' 'took longer than 1 s' 'no number' 'killed by sign
     grep -q "$reason" out || fail "no failure '$reason'"
 done
 
+# Two levels, the objective's derivatives, tied length scales.
+cat >levels.yaml <<'YAML'
+variables:
+  - {name: a, lower: -1, upper: 2, group: 0}
+  - {name: b, lower: -1, upper: 2, group: 0}
+objective:
+  command: "echo 'f: ' $(awk 'BEGIN {{ print ({a} - 0.3)^2 + ({b} - 0.4)^2 }') level {level}"
+  key: f
+levels: {cheap: "awk 'BEGIN {{ print \"f:\", 0.8 * (({a} - 0.3)^2 + ({b} - 0.4)^2) + 0.1 * {a} }'", cost: 0.1}
+search: {evaluations: 26, initial: 12, mean: linear, choice: loo}
+YAML
+expect 0 "$tool" run levels.yaml --json
+below "$(number f)" 0.01 "two levels"
+expect 0 "$tool" export levels.db
+grep -q '^1,initial,done,0,' out && grep -q '^13,initial,done,1,' out || fail "levels: $(cat out)"
+grep -q 'level 1' evaluations/000013/stdout || fail "the command's level"
+expect 0 "$tool" ask hand2.db --config levels.yaml
+head -n 1 out | grep -q '^id,level,a,b$' || fail "ask with levels: $(cat out)"
+cat >slope.yaml <<'YAML'
+variables:
+  - {name: a, lower: -1, upper: 2}
+  - {name: b, lower: -1, upper: 2}
+objective:
+  command: "awk 'BEGIN {{ a = {a}; b = {b}; printf \"f: %.17g\\ndf: [%.17g, %.17g]\\n\", a^2 + b^2, 2 * a, 2 * b }'"
+  key: f
+  gradient: df
+search: {evaluations: 12, initial: 6, acquisition: lcb, kernel: se}
+YAML
+expect 0 "$tool" run slope.yaml --json
+below "$(number f)" 0.001 "with derivatives"
+sed 's/gradient: df/gradient: dg/; s/evaluations: 12/evaluations: 2/' slope.yaml >slope2.yaml
+expect 1 "$tool" run slope2.yaml
+expect 0 "$tool" export slope2.db
+grep -q 'not 2 numbers after dg' out || fail "missing derivatives: $(cat out)"
+sed 's/kernel: se/kernel: periodic/' slope.yaml >bad.yaml
+expect 1 "$tool" run bad.yaml --store bad.db
+grep -q 'search.kernel is .periodic., expected one of se, matern32' err || fail "message: $(cat err)"
+
 # Mistakes in the file are found with line and field.
 sed 's/upper: 2}/upper: two}/' run.yaml >bad.yaml
 expect 1 "$tool" run bad.yaml --store bad.db

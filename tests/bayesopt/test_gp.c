@@ -220,6 +220,53 @@ static void transform_is_chosen_by_the_data(void)
     bayesopt_gp_free(gp);
 }
 
+/* Values that grow without bound to both sides are not straightened by a logarithm or a power;
+ * ranks do it, and the leave-one-out error finds out. */
+static void ranks_for_two_heavy_tails(void)
+{
+    bayesopt_gp_options options;
+    bayesopt_gp_info info;
+    double y[N];
+    bayesopt_gp_options_init(&options);
+    options.transform = BAYESOPT_TRANSFORM_AUTO;
+    bayesopt_gp *gp = make(&options, N);
+    for (size_t i = 0; i < N; i++)
+        y[i] = sinh(12 * (smooth(inputs + i * D) - 0.75));
+    CU_ASSERT_EQUAL(bayesopt_gp_set_data(gp, N, inputs, y, NULL), BAYESOPT_OK);
+    CU_ASSERT_EQUAL(bayesopt_gp_fit(gp), BAYESOPT_OK);
+    CU_ASSERT_EQUAL(bayesopt_gp_get_info(gp, &info), BAYESOPT_OK);
+    CU_ASSERT_EQUAL(info.transform, BAYESOPT_TRANSFORM_RANK);
+    bayesopt_gp_free(gp);
+}
+
+/* Normal scores of many ranks: symmetric, increasing, the ends where they belong. */
+static void scores_of_many_ranks(void)
+{
+    enum { MANY = 600 };
+    static double x[MANY], y[MANY];
+    bayesopt_gp_options options;
+    bayesopt_gp *gp;
+    bayesopt_gp_options_init(&options);
+    options.transform = BAYESOPT_TRANSFORM_RANK;
+    options.starts = 1;
+    options.evaluations = 3;
+    for (size_t i = 0; i < MANY; i++) {
+        x[i] = ((double)i + 0.5) / MANY;
+        y[i] = exp(5 * x[i]);
+    }
+    CU_ASSERT_EQUAL_FATAL(bayesopt_gp_create(1, &options, &gp), BAYESOPT_OK);
+    CU_ASSERT_EQUAL(bayesopt_gp_set_data(gp, MANY, x, y, NULL), BAYESOPT_OK);
+    CU_ASSERT_EQUAL(bayesopt_gp_fit(gp), BAYESOPT_OK);
+    /* Phi^-1(1/1200) = -3.1441, over the standard deviation of the scores, which is near 1 */
+    CHECK_CLOSE(bayesopt_gp_to_model(gp, y[0]), -3.144, 0.02);
+    for (size_t i = 0; i < MANY; i++) {
+        CHECK_CLOSE(bayesopt_gp_to_model(gp, y[i]), -bayesopt_gp_to_model(gp, y[MANY - 1 - i]),
+                    1e-9);
+        CU_ASSERT(!i || bayesopt_gp_to_model(gp, y[i]) > bayesopt_gp_to_model(gp, y[i - 1]));
+    }
+    bayesopt_gp_free(gp);
+}
+
 /* Learned noise finds the variance that was put in; known noise smooths accordingly. */
 static void noise_modes(void)
 {
@@ -346,6 +393,8 @@ static const struct check_case cases[] = {
     {"leave one out", leave_one_out},
     {"fits", fits},
     {"transform is chosen by the data", transform_is_chosen_by_the_data},
+    {"ranks for two heavy tails", ranks_for_two_heavy_tails},
+    {"scores of many ranks", scores_of_many_ranks},
     {"noise modes", noise_modes},
     {"saving", saving},
     {"degenerate data", degenerate_data},

@@ -220,6 +220,103 @@ static void several_processes(void)
     remove(path);
 }
 
+/* Of three processes at work at once one is killed over a point; whoever asks next gets it. */
+static void one_of_several_is_killed(void)
+{
+    fresh_path("one");
+    bayesopt *bo = open_store();
+    bayesopt_free(bo);
+    pid_t children[3];
+    fflush(NULL);
+    for (int c = 0; c < 3; c++) {
+        children[c] = fork();
+        if (children[c] == 0) {
+            bayesopt *mine;
+            double x[D];
+            uint64_t id;
+            bayesopt_status status = bayesopt_open(path, NULL, NULL, &mine);
+            for (int i = 0; !status && (status = bayesopt_ask(mine, 1, x, &id)) == BAYESOPT_OK;
+                 i++) {
+                if (c == 0 && i == 1)
+                    raise(SIGKILL);
+                status = bayesopt_tell(mine, id, bowl(x), NULL);
+            }
+            _exit(status == BAYESOPT_STOP_BUDGET ? 0 : 1);
+        }
+    }
+    for (int c = 0; c < 3; c++) {
+        int status;
+        CU_ASSERT_EQUAL(waitpid(children[c], &status, 0), children[c]);
+        CU_ASSERT(c == 0 || (WIFEXITED(status) && WEXITSTATUS(status) == 0));
+    }
+    bo = open_store();
+    run(bo, N); /* only if the others had finished before */
+    CU_ASSERT_EQUAL(bayesopt_count(bo), N);
+    for (size_t i = 0; i < N; i++) {
+        bayesopt_point p;
+        CU_ASSERT_EQUAL(bayesopt_get(bo, i, &p), BAYESOPT_OK);
+        CU_ASSERT_EQUAL(p.id, i + 1);
+        CU_ASSERT_EQUAL(p.state, BAYESOPT_STATE_DONE);
+        CHECK_CLOSE(p.f, bowl(p.x), 0);
+    }
+    bayesopt_free(bo);
+    remove(path);
+}
+
+/* The model's options come back with the file; another choice is another problem. */
+static void model_options_are_kept(void)
+{
+    static const size_t groups[D] = {0, 1, 1};
+    bayesopt_options options;
+    bayesopt *bo, *again, *whole;
+    fresh_path("model");
+    bayesopt_options_init(&options);
+    options.initial_n = 10;
+    options.max_evaluations = 16;
+    options.scales = BAYESOPT_SCALES_TIED;
+    options.group = groups;
+    options.mean = BAYESOPT_MEAN_LINEAR;
+    options.choice = BAYESOPT_CHOICE_LOO;
+    options.acquisition = BAYESOPT_ACQUISITION_LCB;
+    bo = make(&options);
+    CU_ASSERT_EQUAL_FATAL(bayesopt_open_store(bo, path), BAYESOPT_OK);
+    run(bo, 12);
+    bayesopt_free(bo);
+    CU_ASSERT_EQUAL_FATAL(bayesopt_open(path, NULL, NULL, &again), BAYESOPT_OK);
+    run(again, N);
+    whole = make(&options);
+    run(whole, N);
+    same_history(whole, again);
+    bayesopt_free(whole);
+    bayesopt_free(again);
+    options.lcb_factor = 3;
+    bo = make(&options);
+    CU_ASSERT_EQUAL(bayesopt_open_store(bo, path), BAYESOPT_ERROR_ARGUMENT);
+    CU_ASSERT_PTR_NOT_NULL(strstr(bayesopt_last_error(), "model"));
+    bayesopt_free(bo);
+    remove(path);
+}
+
+/* A store of version 0.1.0 has no entries for the model's later options. */
+static void older_stores_go_on(void)
+{
+    sqlite3 *db;
+    fresh_path("older");
+    bayesopt *bo = open_store();
+    run(bo, 12);
+    bayesopt_free(bo);
+    CU_ASSERT_EQUAL(sqlite3_open(path, &db), SQLITE_OK);
+    CU_ASSERT_EQUAL(sqlite3_exec(db, "DELETE FROM bayesopt_meta WHERE key IN ('model', 'group')",
+                                 NULL, NULL, NULL),
+                    SQLITE_OK);
+    sqlite3_close(db);
+    CU_ASSERT_EQUAL_FATAL(bayesopt_open(path, NULL, NULL, &bo), BAYESOPT_OK);
+    run(bo, N);
+    CU_ASSERT_EQUAL(bayesopt_count(bo), N);
+    bayesopt_free(bo);
+    remove(path);
+}
+
 static void write_bytes(const char *text, size_t n)
 {
     FILE *file = fopen(path, "wb");
@@ -373,6 +470,9 @@ static const struct check_case cases[] = {
     {"killed processes lose nothing", killed_processes_lose_nothing},
     {"pending points come back", pending_points_come_back},
     {"several processes", several_processes},
+    {"one of several is killed", one_of_several_is_killed},
+    {"model options are kept", model_options_are_kept},
+    {"older stores go on", older_stores_go_on},
     {"damaged and foreign files", damaged_and_foreign_files},
     {"damaged rows", damaged_rows},
     {"another problem", another_problem},

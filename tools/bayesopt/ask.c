@@ -12,7 +12,8 @@
 static const char help[] =
     "usage: bayesopt ask STORE [OPTION]...\n"
     "\n"
-    "Prints the next points to evaluate as CSV (id and variables). They wait for 'bayesopt tell',\n"
+    "Prints the next points to evaluate as CSV (id, with two levels the level, and variables). "
+    "They wait for 'bayesopt tell',\n"
     "which may come from any process, in any order.\n"
     "\n"
     "  -n, --points N    so many points (default 1)\n"
@@ -74,29 +75,36 @@ static bool create_from_config(const char *store, const char *path)
     return ok;
 }
 
-static void print_csv(const struct names *names, size_t n, const double *x, const uint64_t *ids)
+/* levels is NULL if there is only one. */
+static void print_csv(const struct names *names, size_t n, const double *x, const uint64_t *ids,
+                      const int *levels)
 {
-    printf("id");
+    printf(levels ? "id,level" : "id");
     for (size_t j = 0; j < names->d; j++)
         printf(",%s", names->variables[j]);
     putchar('\n');
     for (size_t i = 0; i < n && ids[i]; i++) {
         printf("%llu", (unsigned long long)ids[i]);
+        if (levels)
+            printf(",%d", levels[i]);
         for (size_t j = 0; j < names->d; j++)
             printf(",%.17g", x[i * names->d + j]);
         putchar('\n');
     }
 }
 
-static void print_json(const struct names *names, size_t n, const double *x, const uint64_t *ids)
+static void print_json(const struct names *names, size_t n, const double *x, const uint64_t *ids,
+                       const int *levels)
 {
     json_t *points = json_array();
     for (size_t i = 0; i < n && ids[i]; i++) {
         json_t *values = json_object();
         for (size_t j = 0; j < names->d; j++)
             json_object_set_new(values, names->variables[j], json_real(x[i * names->d + j]));
-        json_array_append_new(points,
-                              json_pack("{s:I, s:o}", "id", (json_int_t)ids[i], "x", values));
+        json_t *point = json_pack("{s:I, s:o}", "id", (json_int_t)ids[i], "x", values);
+        if (levels)
+            json_object_set_new(point, "level", json_integer(levels[i]));
+        json_array_append_new(points, point);
     }
     json_t *root = json_pack("{s:o}", "points", points);
     json_dumpf(root, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
@@ -112,12 +120,13 @@ static int ask(const char *store, const struct arguments *a)
         return CLI_FAILED;
     double *x = malloc(a->n * names.d * sizeof *x);
     uint64_t *ids = calloc(a->n, sizeof *ids);
+    int *levels = calloc(a->n, sizeof *levels);
     int code = CLI_OK;
     bayesopt_status status = a->reissue ? bayesopt_reclaim(bo) : BAYESOPT_OK;
-    if (!x || !ids)
+    if (!x || !ids || !levels)
         code = cli_fail("out of memory");
     else if (!status)
-        status = bayesopt_ask(bo, a->n, x, ids);
+        status = bayesopt_ask_levels(bo, a->n, x, ids, levels);
     if (!code && status < 0)
         code = cli_fail("%s", bayesopt_last_error());
     else if (!code && status > 0)
@@ -125,9 +134,11 @@ static int ask(const char *store, const struct arguments *a)
     if (!code && bayesopt_detach(bo))
         code = cli_fail("%s", bayesopt_last_error());
     if (!code)
-        (a->json ? print_json : print_csv)(&names, a->n, x, ids);
+        (a->json ? print_json : print_csv)(&names, a->n, x, ids,
+                                           bayesopt_level_count(bo) > 1 ? levels : NULL);
     free(x);
     free(ids);
+    free(levels);
     names_free(&names);
     bayesopt_free(bo);
     return code;

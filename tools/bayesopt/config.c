@@ -18,15 +18,25 @@ static const cyaml_schema_field_t variable_fields[] = {
     REQUIRED(name, config_variable),
     REQUIRED(lower, config_variable),
     REQUIRED(upper, config_variable),
+    OPTIONAL(group, config_variable),
     CYAML_FIELD_END,
 };
 static const cyaml_schema_value_t variable = {
     CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct config_variable, variable_fields),
 };
 static const cyaml_schema_field_t objective_fields[] = {
-    REQUIRED(command, config_objective), OPTIONAL(key, config_objective),
-    OPTIONAL(folder, config_objective),  OPTIONAL(timeout, config_objective),
-    OPTIONAL(retries, config_objective), CYAML_FIELD_END,
+    REQUIRED(command, config_objective),
+    OPTIONAL(key, config_objective),
+    OPTIONAL(gradient, config_objective),
+    OPTIONAL(folder, config_objective),
+    OPTIONAL(timeout, config_objective),
+    OPTIONAL(retries, config_objective),
+    CYAML_FIELD_END,
+};
+static const cyaml_schema_field_t levels_fields[] = {
+    OPTIONAL(cheap, config_levels),
+    OPTIONAL(cost, config_levels),
+    CYAML_FIELD_END,
 };
 static const cyaml_schema_field_t constraint_fields[] = {
     REQUIRED(name, config_constraint),
@@ -38,10 +48,23 @@ static const cyaml_schema_value_t constraint = {
     CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct config_constraint, constraint_fields),
 };
 static const cyaml_schema_field_t search_fields[] = {
-    OPTIONAL(evaluations, config_search), OPTIONAL(initial, config_search),
-    OPTIONAL(design, config_search),      OPTIONAL(seed, config_search),
-    OPTIONAL(strategy, config_search),    OPTIONAL(noise, config_search),
-    OPTIONAL(workers, config_search),     CYAML_FIELD_END,
+    OPTIONAL(evaluations, config_search),
+    OPTIONAL(initial, config_search),
+    OPTIONAL(design, config_search),
+    OPTIONAL(seed, config_search),
+    OPTIONAL(strategy, config_search),
+    OPTIONAL(noise, config_search),
+    OPTIONAL(workers, config_search),
+    OPTIONAL(kernel, config_search),
+    OPTIONAL(scales, config_search),
+    OPTIONAL(mean, config_search),
+    OPTIONAL(choice, config_search),
+    OPTIONAL(transform, config_search),
+    OPTIONAL(acquisition, config_search),
+    OPTIONAL(lcb_factor, config_search),
+    OPTIONAL(stop_no_improvement, config_search),
+    OPTIONAL(stop_expected_improvement, config_search),
+    CYAML_FIELD_END,
 };
 static const cyaml_schema_field_t fields[] = {
     OPTIONAL(store, config_file),
@@ -49,6 +72,7 @@ static const cyaml_schema_field_t fields[] = {
                          1, 1000),
     CYAML_FIELD_MAPPING("objective", CYAML_FLAG_DEFAULT, struct config_file, objective,
                         objective_fields),
+    CYAML_FIELD_MAPPING("levels", CYAML_FLAG_OPTIONAL, struct config_file, levels, levels_fields),
     CYAML_FIELD_SEQUENCE("constraints", CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL,
                          struct config_file, constraints, &constraint, 0, 1000),
     CYAML_FIELD_MAPPING("search", CYAML_FLAG_OPTIONAL, struct config_file, search, search_fields),
@@ -129,8 +153,90 @@ static bool choice(const char *path, const char *field, const char *text, const 
             *out = i;
             return true;
         }
-    cli_yaml_fail(path, field, "is '%s', expected one of %s, %s, ...", text, list[0], list[1]);
+    char names[200] = "";
+    for (int i = 0; i < n; i++)
+        snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", i ? ", " : "",
+                 list[i]);
+    cli_yaml_fail(path, field, "is '%s', expected one of %s", text, names);
     return false;
+}
+
+/* The model, the acquisition and when to stop. */
+static bool check_model(struct config *c)
+{
+    static const char *const kernels[] = {"se", "matern32", "matern52"};
+    static const char *const scales[] = {"isotropic", "tied", "ard", "auto"};
+    static const char *const means[] = {"constant", "linear"};
+    static const char *const choices[] = {"posterior", "loo"};
+    static const char *const transforms[] = {"none", "log",        "yeo-johnson",
+                                             "rank", "winsorised", "auto"};
+    static const char *const acquisitions[] = {"ei", "lcb"};
+    const struct config_search *s = &c->file->search;
+    bayesopt_options *o = &c->options;
+    int kernel = (int)o->kernel, scale = c->group ? BAYESOPT_SCALES_TIED : (int)o->scales;
+    int mean = 0, model = (int)o->choice, transform = (int)o->transform, what = (int)o->acquisition;
+    bool ok = choice(c->path, "search.kernel", s->kernel, kernels, 3, &kernel) &&
+              choice(c->path, "search.scales", s->scales, scales, 4, &scale) &&
+              choice(c->path, "search.mean", s->mean, means, 2, &mean) &&
+              choice(c->path, "search.choice", s->choice, choices, 2, &model) &&
+              choice(c->path, "search.transform", s->transform, transforms, 6, &transform) &&
+              choice(c->path, "search.acquisition", s->acquisition, acquisitions, 2, &what) &&
+              number(c->path, "search.lcb_factor", s->lcb_factor, o->lcb_factor, &o->lcb_factor) &&
+              whole(c->path, "search.stop_no_improvement", s->stop_no_improvement, 0,
+                    &o->stop_no_improvement) &&
+              number(c->path, "search.stop_expected_improvement", s->stop_expected_improvement, 0,
+                     &o->stop_expected_improvement);
+    if (ok && scale == BAYESOPT_SCALES_TIED && !c->group) {
+        cli_yaml_fail(c->path, "search.scales", "is 'tied', but the variables have no group");
+        return false;
+    }
+    o->kernel = (bayesopt_kernel)kernel;
+    o->scales = (bayesopt_scales)scale;
+    o->mean = mean ? BAYESOPT_MEAN_LINEAR : BAYESOPT_MEAN_CONSTANT;
+    o->choice = (bayesopt_choice)model;
+    o->transform = (bayesopt_transform)transform;
+    o->acquisition = (bayesopt_acquisition)what;
+    o->group = c->group;
+    return ok;
+}
+
+static bool check_levels(struct config *c)
+{
+    const struct config_levels *l = &c->file->levels;
+    if (!l->cheap && !l->cost)
+        return true;
+    if (!l->cheap) {
+        cli_yaml_fail(c->path, "levels", "has no command 'cheap'");
+        return false;
+    }
+    c->options.n_levels = 2;
+    double *ratio = &c->options.level_cost_ratio;
+    if (!number(c->path, "levels.cost", l->cost, *ratio, ratio))
+        return false;
+    if (*ratio > 0 && *ratio <= 1)
+        return true;
+    cli_yaml_fail(c->path, "levels.cost", "is %g, expected a share in (0, 1]", *ratio);
+    return false;
+}
+
+static bool check_groups(struct config *c)
+{
+    const struct config_file *f = c->file;
+    size_t given = 0;
+    for (unsigned j = 0; j < f->variables_count; j++)
+        given += f->variables[j].group != NULL;
+    if (!given)
+        return true;
+    c->group = malloc(f->variables_count * sizeof *c->group);
+    if (!c->group || given != f->variables_count) {
+        cli_yaml_fail(c->path, "variables", "has a group for %zu of %u variables, expected all",
+                      given, f->variables_count);
+        return false;
+    }
+    for (unsigned j = 0; j < f->variables_count; j++)
+        if (!whole(c->path, "variables.group", f->variables[j].group, 0, &c->group[j]))
+            return false;
+    return true;
 }
 
 static bool check_search(struct config *c)
@@ -185,7 +291,8 @@ bool config_read(const char *path, struct config *c)
         c->upper = c->lower + d;
         c->constraint_lower = c->upper + d;
         c->constraint_upper = c->constraint_lower + m;
-        ok = check_variables(c) && check_constraints(c) && check_search(c);
+        ok = check_variables(c) && check_groups(c) && check_constraints(c) && check_search(c) &&
+             check_model(c) && check_levels(c);
     } else {
         cli_fail("out of memory");
     }
@@ -201,6 +308,8 @@ void config_free(struct config *c)
 {
     names_free(&c->names);
     free(c->lower);
+    free(c->group);
+    c->group = NULL;
     cli_yaml_free(&schema, c->file);
     c->file = NULL;
     c->lower = NULL;

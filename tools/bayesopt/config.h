@@ -9,22 +9,28 @@
 
 /* As the file has it: numbers are text until they are checked. */
 struct config_variable {
-    char *name, *lower, *upper;
+    char *name, *lower, *upper, *group;
 };
 struct config_objective {
-    char *command, *key, *folder, *timeout, *retries;
+    char *command, *key, *gradient, *folder, *timeout, *retries;
+};
+struct config_levels {
+    char *cheap, *cost;
 };
 struct config_constraint {
     char *name, *lower, *upper;
 };
 struct config_search {
     char *evaluations, *initial, *design, *seed, *strategy, *noise, *workers;
+    char *kernel, *scales, *mean, *choice, *transform, *acquisition, *lcb_factor;
+    char *stop_no_improvement, *stop_expected_improvement;
 };
 struct config_file {
     char *store;
     struct config_variable *variables;
     unsigned variables_count;
     struct config_objective objective;
+    struct config_levels levels;
     struct config_constraint *constraints;
     unsigned constraints_count;
     struct config_search search;
@@ -39,6 +45,7 @@ struct config {
     double *constraint_lower, *constraint_upper; /* [m] */
     double timeout;                              /* seconds */
     size_t retries, workers;
+    size_t *group; /* [d] tied length scales, or NULL */
     bayesopt_options options;
 };
 

@@ -14,10 +14,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* Writes the value of a template's field: a variable, the id, the folder. false: unknown. */
+/* Writes the value of a template's field: a variable, the id, the level. false: unknown. */
 static bool expand(const struct config *c, const struct evaluation *e, const char *name,
                    size_t length, FILE *out)
 {
+    if (length == 5 && strncmp(name, "level", 5) == 0)
+        return fprintf(out, "%d", e->level) > 0;
     if (length == 2 && strncmp(name, "id", 2) == 0)
         return fprintf(out, "%llu", (unsigned long long)e->id) > 0;
     for (size_t j = 0; j < c->names.d; j++)
@@ -34,8 +36,9 @@ static char *fill_template(const struct config *c, const struct evaluation *e)
     char *text = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
-    bool ok = out != NULL;
-    for (const char *p = c->file->objective.command; ok && *p; p++) {
+    bool ok = out != NULL, cheap = c->options.n_levels == 2 && e->level == 0;
+    for (const char *p = cheap ? c->file->levels.cheap : c->file->objective.command; ok && *p;
+         p++) {
         const char *end = *p == '{' ? strchr(p, '}') : NULL;
         if (p[0] == '{' && p[1] == '{') {
             fputc('{', out);
@@ -43,8 +46,8 @@ static char *fill_template(const struct config *c, const struct evaluation *e)
         } else if (end) {
             ok = expand(c, e, p + 1, (size_t)(end - p - 1), out);
             if (!ok)
-                cli_yaml_fail(c->path, "objective.command", "has '%.*s}', which is no variable",
-                              (int)(end - p), p);
+                cli_yaml_fail(c->path, cheap ? "levels.cheap" : "objective.command",
+                              "has '%.*s}', which is no variable", (int)(end - p), p);
             p = end;
         } else {
             fputc(*p, out);
@@ -112,21 +115,31 @@ void evaluation_check_time(const struct config *c, struct evaluation *e)
     }
 }
 
-/* The last number that follows the key and one of ":= ," in the output, quotes ignored, so that
+/* n numbers from the text on, brackets, quotes and separators ignored. */
+static bool read_numbers(const char *text, size_t n, double *values)
+{
+    for (size_t i = 0; i < n; i++) {
+        char *end;
+        text += strspn(text, " \t\":=,[");
+        values[i] = strtod(text, &end);
+        if (end == text)
+            return false;
+        text = end;
+    }
+    return true;
+}
+
+/* The last n numbers that follow the key and one of ":= ," in the output, quotes ignored, so that
  * "cw: 3e-4", "cw = 3e-4", "cw 3e-4" and {"cw": 3e-4} all serve. */
-static bool find_number(const char *text, const char *key, double *value)
+static bool find_numbers(const char *text, const char *key, size_t n, double *values)
 {
     bool found = false;
     size_t length = strlen(key);
     for (const char *p = text; (p = strstr(p, key)) != NULL; p += length) {
         bool starts = p == text || strchr(" \t\n\",{", p[-1]);
-        const char *after = p + length, *number = after + strspn(after, " \t\":=,");
-        char *end;
-        double read = strtod(number, &end);
-        if (starts && number > after && end > number) {
-            *value = read;
-            found = true;
-        }
+        const char *after = p + length;
+        if (starts && strchr(" \t\":=,", *after) && *after)
+            found = read_numbers(after, n, values) || found;
     }
     return found;
 }
@@ -169,7 +182,7 @@ static char *read_output(const struct evaluation *e)
 }
 
 bool evaluation_read(const struct config *c, const struct evaluation *e, int status, double *f,
-                     double *constraints, char *reason, size_t size)
+                     double *constraints, double *gradient, char *reason, size_t size)
 {
     const char *key = c->file->objective.key;
     if (e->timed_out)
@@ -183,13 +196,18 @@ bool evaluation_read(const struct config *c, const struct evaluation *e, int sta
     if (*reason)
         return false;
     char *text = read_output(e);
-    bool ok = text && (key ? find_number(text, key, f) : last_number(text, f));
+    bool ok = text && (key ? find_numbers(text, key, 1, f) : last_number(text, f));
     if (!ok)
         snprintf(reason, size, "no number%s%s in the output", key ? " after " : "", key ? key : "");
     for (size_t k = 0; k < c->names.m && ok; k++) {
-        ok = find_number(text, c->names.constraints[k], &constraints[k]);
+        ok = find_numbers(text, c->names.constraints[k], 1, &constraints[k]);
         if (!ok)
             snprintf(reason, size, "no number after %s in the output", c->names.constraints[k]);
+    }
+    const char *slope = c->file->objective.gradient;
+    if (ok && slope && !find_numbers(text, slope, c->names.d, gradient)) {
+        snprintf(reason, size, "not %zu numbers after %s in the output", c->names.d, slope);
+        ok = false;
     }
     free(text);
     return ok;

@@ -10,6 +10,7 @@
 
 struct evaluation {
     uint64_t id;
+    int level;
     double *x; /* [d], owned by the caller */
     pid_t process;
     double started;
@@ -22,9 +23,9 @@ struct evaluation {
 bool evaluation_start(const struct config *config, struct evaluation *e);
 /* Kills the process group if the time is up. */
 void evaluation_check_time(const struct config *config, struct evaluation *e);
-/* What a finished process left: fills *f and constraints [m], or writes the reason of the failure.
- */
+/* What a finished process left: fills *f, constraints [m] and, if the file asks for it, gradient
+ * [d], or writes the reason of the failure. */
 bool evaluation_read(const struct config *config, const struct evaluation *e, int status, double *f,
-                     double *constraints, char *reason, size_t size);
+                     double *constraints, double *gradient, char *reason, size_t size);
 
 #endif

@@ -29,14 +29,23 @@ static const char help[] =
     "    command: simulate --x {x}      {name} and {id} are replaced; run by /bin/sh in a folder\n"
     "    key: cw                        of its own; the number after 'cw' in its output, or\n"
     "                                   without a key the last one that ends a line\n"
+    "    gradient: dcw                  optional: its derivatives, as many numbers after 'dcw'\n"
     "    folder: evaluations            parent of the working folders\n"
     "    timeout: 600                   seconds, then it has failed (default none)\n"
     "    retries: 1                     again after a failure (default 0)\n"
     "  constraints:\n"
     "    - {name: volume, lower: 0.9}   the number after 'volume' in the output\n"
+    "  levels:                          optional: a cheaper, coarser evaluation beside it\n"
+    "    cheap: simulate --coarse --x {x}\n"
+    "    cost: 0.1                      of the cheap one over the other's\n"
     "  search:\n"
     "    evaluations: 100               initial: 30   design: annealed-lhs   seed: 1\n"
     "    strategy: auto                 noise: deterministic               workers: 1\n"
+    "    kernel: matern52 (se, matern32)            scales: auto (isotropic, ard, tied: each\n"
+    "    mean: constant (linear)                      variable then has a group: 0, 1, ...)\n"
+    "    choice: posterior (loo)                    transform: auto (none, log, yeo-johnson,\n"
+    "    acquisition: ei (lcb)   lcb_factor: 2        rank, winsorised)\n"
+    "    stop_no_improvement: 0                     stop_expected_improvement: 0\n"
     "\n"
     "  --store FILE      instead of the file's\n"
     "  --threads N       evaluations at a time, instead of the file's workers\n"
@@ -57,8 +66,8 @@ static void interrupt(int signal_number)
 struct runner {
     struct config config;
     bayesopt *bo;
-    struct evaluation *slots; /* [workers] */
-    double *x, *constraints;  /* [workers x d], [m] */
+    struct evaluation *slots;           /* [workers] */
+    double *x, *constraints, *gradient; /* [workers x d], [m], [d] */
     struct cli_progress progress;
     bayesopt_status stop; /* positive: nothing more to ask */
 };
@@ -66,7 +75,7 @@ struct runner {
 static bool runner_start(struct runner *r, struct evaluation *slot)
 {
     slot->attempt = 0;
-    bayesopt_status status = bayesopt_ask(r->bo, 1, slot->x, &slot->id);
+    bayesopt_status status = bayesopt_ask_levels(r->bo, 1, slot->x, &slot->id, &slot->level);
     if (status > 0) {
         r->stop = status;
         return true;
@@ -83,14 +92,19 @@ static bool runner_finish(struct runner *r, struct evaluation *slot, int status)
     char reason[256];
     double f = NAN;
     slot->process = 0;
-    bool ok = evaluation_read(&r->config, slot, status, &f, r->constraints, reason, sizeof reason);
+    bool ok = evaluation_read(&r->config, slot, status, &f, r->constraints, r->gradient, reason,
+                              sizeof reason);
     if (!ok && slot->attempt < r->config.retries && !interrupted) {
         slot->attempt++;
         return evaluation_start(&r->config, slot);
     }
-    bayesopt_status told =
-        ok ? bayesopt_tell(r->bo, slot->id, f, r->config.names.m ? r->constraints : NULL)
-           : bayesopt_tell_failed(r->bo, slot->id, reason);
+    bayesopt_result result = {
+        .f = f,
+        .constraints = r->config.names.m ? r->constraints : NULL,
+        .gradient = r->config.file->objective.gradient ? r->gradient : NULL,
+    };
+    bayesopt_status told = ok ? bayesopt_tell_result(r->bo, slot->id, &result)
+                              : bayesopt_tell_failed(r->bo, slot->id, reason);
     if (told) {
         cli_fail("%s", bayesopt_last_error());
         return false;
@@ -188,10 +202,11 @@ static int run(struct runner *r, const char *store, bool json)
     size_t d = r->config.names.d, workers = r->config.workers;
     struct sigaction action = {.sa_handler = interrupt};
     r->slots = calloc(workers, sizeof *r->slots);
-    r->x = malloc((workers * d + r->config.names.m + 1) * sizeof *r->x);
+    r->x = malloc((workers * d + r->config.names.m + d) * sizeof *r->x);
     if (!r->slots || !r->x)
         return cli_fail("out of memory");
     r->constraints = r->x + workers * d;
+    r->gradient = r->constraints + r->config.names.m;
     for (size_t i = 0; i < workers; i++)
         r->slots[i].x = r->x + i * d;
     if (config_create(&r->config, store, &r->bo))

@@ -62,6 +62,14 @@ typedef enum bayesopt_strategy {
     BAYESOPT_STRATEGY_LOCAL,  /**< trust-region steps only, with restarts */
 } bayesopt_strategy;
 
+/** What a global or local step maximises. */
+typedef enum bayesopt_acquisition {
+    BAYESOPT_ACQUISITION_EI,  /**< log expected improvement; with noise its expectation over the
+                                   unknown values at the evaluated points (Letham et al., Bayesian
+                                   Analysis 14 (2019) 495), by quasi-Monte Carlo */
+    BAYESOPT_ACQUISITION_LCB, /**< minus the lower confidence bound mean - lcb_factor sd */
+} bayesopt_acquisition;
+
 /** Name of a phase ("global"), state ("done") or strategy ("auto"); "unknown" outside the list. */
 BAYESOPT_API const char *bayesopt_phase_name(bayesopt_phase phase);
 BAYESOPT_API const char *bayesopt_state_name(bayesopt_state state);
@@ -93,19 +101,26 @@ typedef struct bayesopt_options {
     bayesopt_noise noise;   /**< default BAYESOPT_NOISE_DETERMINISTIC */
     bayesopt_kernel kernel; /**< default BAYESOPT_KERNEL_MATERN52 */
     bayesopt_scales scales; /**< default BAYESOPT_SCALES_AUTO: isotropic or ARD, the likelier */
+    const size_t *group;    /**< [d] BAYESOPT_SCALES_TIED: group of each variable, see gp.h */
+    bayesopt_mean mean;     /**< of the objective; default BAYESOPT_MEAN_CONSTANT, or LINEAR */
+    bayesopt_choice choice; /**< between models; default BAYESOPT_CHOICE_POSTERIOR */
     bayesopt_transform transform; /**< of the objective; default BAYESOPT_TRANSFORM_AUTO */
     bayesopt_strategy strategy;   /**< default BAYESOPT_STRATEGY_AUTO */
     bool polish; /**< allow polishing steps with BAYESOPT_STRATEGY_AUTO; default true */
+    bayesopt_acquisition acquisition; /**< default BAYESOPT_ACQUISITION_EI */
+    double lcb_factor;                /**< sd below the mean; positive, default 2 */
 
     size_t n_levels; /**< 1, or 2: a cheap level 0 beside the dear level 1, whose value counts; the
                           initial design is then evaluated at level 0 and its first quarter at level
-                          1 too; every evaluation counts against the budget; default 1 */
+                          1 too (ordered so that it covers the box, unless initial_x is given);
+                        every evaluation counts against the budget; default 1 */
     double level_cost_ratio; /**< cost of the cheap level over that of the dear one; default 0.1 */
 
     size_t stop_no_improvement; /**< stop after so many proposals in a row without improvement;
                                      default 0 = never */
     double stop_expected_improvement; /**< stop when the largest expected improvement over the box
-                                         is below this many units of f; default 0 = never */
+                                         is below this many units of f, judged at global steps of
+                                         BAYESOPT_ACQUISITION_EI; default 0 = never */
 } bayesopt_options;
 
 /** Fills the defaults. */
@@ -257,6 +272,9 @@ BAYESOPT_API size_t bayesopt_constraint_count(const bayesopt *bo, double *lower,
 BAYESOPT_API size_t bayesopt_budget(const bayesopt *bo);
 BAYESOPT_API size_t bayesopt_initial_count(const bayesopt *bo);
 BAYESOPT_API uint64_t bayesopt_seed(const bayesopt *bo);
+
+/** Levels of fidelity, 1 or 2. */
+BAYESOPT_API size_t bayesopt_level_count(const bayesopt *bo);
 
 /** Replaces the budget (0 = the default); a finished run may go on. */
 BAYESOPT_API bayesopt_status bayesopt_set_budget(bayesopt *bo, size_t max_evaluations);
