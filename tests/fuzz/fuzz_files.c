@@ -1,6 +1,7 @@
 /* Damaged files: readers must answer with a status and a sentence, whatever the bytes. Valid files
- * are cut, overwritten, repeated and spliced by a fixed random stream; the sanitizer build watches
- * the memory. More rounds: FUZZ_ROUNDS=100000 fuzz_files. */
+ * are cut, overwritten, repeated and spliced by a fixed random stream, and IGES files also cut
+ * behind and changed at every STEPth byte; the sanitizer build watches the memory. More:
+ * FUZZ_ROUNDS=100000 fuzz_files, which also takes every byte. */
 #include "check.h"
 
 #include <nurbs/nurbs.h>
@@ -8,7 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { LARGEST = 1 << 16, DEFAULT_ROUNDS = 400 };
+enum { LARGEST = 1 << 16, DEFAULT_ROUNDS = 400, STEP = 37 };
 
 static uint64_t next(uint64_t *state)
 {
@@ -74,7 +75,7 @@ static void check_reader(const char *path, int grid)
     if (grid)
         status = nurbs_grid_read(path, &points);
     else if (strstr(path, ".igs"))
-        status = nurbs_patches_read_iges(path, &patches, report, sizeof report);
+        status = nurbs_patches_read_iges_untrimmed(path, 1e-2, &patches, report, sizeof report);
     else
         status = nurbs_patches_read_json(path, &patches);
     if (status == NURBS_OK)
@@ -86,6 +87,13 @@ static void check_reader(const char *path, int grid)
     }
     nurbs_grid_free(points);
     nurbs_patches_free(patches);
+    if (!grid && strstr(path, ".igs")) {
+        size_t n;
+        nurbs_curve **curves;
+        status = nurbs_curves_read_iges(path, &n, &curves);
+        CU_ASSERT_TRUE(status == NURBS_OK || (n == 0 && !curves));
+        nurbs_curves_free(n, curves);
+    }
 }
 
 static void fuzz(const char *source, const char *extension, int grid)
@@ -107,6 +115,50 @@ static void fuzz(const char *source, const char *extension, int grid)
         check_reader(path, grid);
     }
     unlink(path);
+}
+
+static void check_bytes(const char *path, size_t n, const char *bytes)
+{
+    FILE *stream = fopen(path, "wb");
+    CU_ASSERT_PTR_NOT_NULL_FATAL(stream);
+    CU_ASSERT_EQUAL(fwrite(bytes, 1, n, stream), n);
+    fclose(stream);
+    check_reader(path, 0);
+}
+
+/* Every beginning of a file, and every byte replaced by those that mean something in IGES. */
+static void sweep(const char *source)
+{
+    static char original[LARGEST];
+    static const char instead[] = {'9', '-', ',', ';', 'H', ' ', '\n', 'D', '\0', (char)0xff};
+    const char *folder = getenv("TMPDIR");
+    size_t n = load(source, original), step = getenv("FUZZ_ROUNDS") ? 1 : STEP;
+    char path[512];
+    snprintf(path, sizeof path, "%s/fuzz_sweep_%ld.igs", folder ? folder : "/tmp", (long)getpid());
+    for (size_t k = 0; k < n; k += step) {
+        char before = original[k];
+        check_bytes(path, k, original);
+        for (size_t i = 0; i < sizeof instead; i++) {
+            original[k] = instead[step == 1 ? i : (k / step) % sizeof instead];
+            check_bytes(path, n, original);
+            if (step > 1)
+                break;
+        }
+        original[k] = before;
+    }
+    unlink(path);
+}
+
+static void test_iges_bytes(void)
+{
+    static const char *const files[] = {"iges_trimmed_curved.igs", "iges_trimmed_face.igs",
+                                        "iges_curves.igs",         "iges_transformed.igs",
+                                        "occt_trimmed_brep.igs",   "occt_rational.igs"};
+    for (size_t k = 0; k < sizeof files / sizeof *files; k++) {
+        char path[512];
+        snprintf(path, sizeof path, "%s/%s", TEST_DATA_DIR, files[k]);
+        sweep(path);
+    }
 }
 
 static void test_json(void)
@@ -150,6 +202,7 @@ static void test_grid(void)
 static const struct check_case cases[] = {
     {"damaged NURBS files", test_json},
     {"damaged IGES files", test_iges},
+    {"every byte of IGES files", test_iges_bytes},
     {"damaged grids", test_grid},
 };
 
