@@ -57,7 +57,7 @@ static void test_all_fields(void)
         "line_term: off, cutoff_factor: 1.5,\n"
         "         cutoff_angle: 5, stem_limit: 0.4, stern_length: 0.3, stern_blend: 0.02,\n"
         "         spectrum_limit: 30, tolerance: 1e-4}\n"
-        "constraints: {displacement: 0.02, breadth: 0.2}\n"
+        "constraints: {displacement: 0.02, breadth: 0.2, entrance: 1.25}\n"
         "search: {initial: 12, iterations: 6, design: sobol, strategy: global, seed: 3}\n"
         "verification: {refine: 3, froude: [0.28, 0.41]}\n",
         &c));
@@ -78,6 +78,7 @@ static void test_all_fields(void)
     CU_ASSERT_EQUAL(c.solver.stern_length, 0.3);
     CU_ASSERT_EQUAL(c.displacement, 0.02);
     CU_ASSERT_EQUAL(c.breadth, 0.2);
+    CU_ASSERT_EQUAL(c.entrance, 1.25);
     CU_ASSERT_EQUAL(c.design, BAYESOPT_DESIGN_SOBOL);
     CU_ASSERT_EQUAL(c.strategy, BAYESOPT_STRATEGY_GLOBAL);
     CU_ASSERT_EQUAL(c.search_seed, 3);
@@ -134,6 +135,7 @@ static const struct {
     {"search:\n\n  initial: 1\n", ":7:", "search.initial"},
     {"constraints:\n  displacement: 2\n", ":6:", "constraints.displacement"},
     {"constraints:\n  breadth: 1\n", ":6:", "constraints.breadth"},
+    {"constraints:\n  entrance: 0.9\n", ":6:", "constraints.entrance"},
     {"waves:\n  along: 1\n", ":6:", "waves.along"},
     {"verification:\n  froude: [0.3, -1]\n", ":6:", "verification.froude"},
     {"colour: red\n", ":5:", "unknown field 'colour'"},

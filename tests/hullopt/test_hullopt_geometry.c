@@ -2,6 +2,7 @@
  * the Wigley hull where everything is known: V = 4/9 L B T, A(x) = 2/3 B T (1 - (2x/L)^2). */
 #include "check.h"
 #include "design.h"
+#include "entrance.h"
 #include "limits.h"
 #include "parent.h"
 #include "stations.h"
@@ -210,11 +211,42 @@ static void test_design(void)
     nurbs_grid_free(parent.grid);
 }
 
+/* The waterline y = (B/2)(1 - 4x^2) has the chords dy/dx = -2 B (x_i + x_{i+1}). */
+static void test_entrance(void)
+{
+    enum { ROWS = 41, COLUMNS = 17, N = 3 * ROWS * COLUMNS };
+    double points[N];
+    struct latent latent = {.modes = 1, .coordinates = N, .spectrum = 1};
+    struct entrance entrance;
+    nurbs_grid *grid;
+    wigley_grid(ROWS, COLUMNS, 0.02, points);
+    CU_ASSERT_EQUAL_FATAL(nurbs_grid_create(ROWS, COLUMNS, points, &grid), NURBS_OK);
+    CU_ASSERT_TRUE_FATAL(latent_allocate(&latent));
+    for (size_t k = 0; k < N; k += 3)
+        latent.vectors[k + 1] = points[k + 1];
+    const double slope = 2 * BEAM * (1 - 1.0 / (ROWS - 1)), wider = 1.2 * slope;
+    CU_ASSERT_TRUE_FATAL(entrance_create(grid, 0.3, &entrance));
+    CU_ASSERT_EQUAL(entrance.n, ROWS);
+    CHECK_RELATIVE(entrance.largest, slope / sqrt(1 + slope * slope), 1e-3);
+    const double u[1] = {0.2}, parent[1] = {0};
+    CHECK_CLOSE(entrance_ratio(&entrance, &latent, parent), 1, 1e-12);
+    CHECK_RELATIVE(entrance_ratio(&entrance, &latent, u),
+                   1.2 * sqrt((1 + slope * slope) / (1 + wider * wider)), 1e-3);
+    entrance_free(&entrance);
+    /* Steeper pieces than the solver's nu_s are stem arcs and do not count. */
+    CU_ASSERT_TRUE_FATAL(entrance_create(grid, 0.1, &entrance));
+    CU_ASSERT_TRUE(entrance.largest <= 0.101 && entrance.largest > 0.09);
+    entrance_free(&entrance);
+    latent_free(&latent);
+    nurbs_grid_free(grid);
+}
+
 static const struct check_case cases[] = {
     {"displacement of a grid converges", test_volume_converges},
     {"displacement of a box is exact", test_volume_cut},
     {"limits from the grid", test_limits_of_grid},
     {"limits from built hulls", test_limits_of_hull},
+    {"steepest waterline", test_entrance},
     {"grid parameters keep kinks", test_parameters},
     {"sections of the Wigley hull", test_stations},
     {"from a grid to the light patch", test_design},

@@ -48,6 +48,7 @@ static const cyaml_schema_field_t solver[] = {
 static const cyaml_schema_field_t constraints[] = {
     OPTIONAL(displacement, config_constraints),
     OPTIONAL(breadth, config_constraints),
+    OPTIONAL(entrance, config_constraints),
     CYAML_FIELD_END,
 };
 

@@ -75,6 +75,9 @@ bool evaluator_create(const struct config *config, const struct parent *parent,
         return false;
     }
     evaluator->parent_volume = design.hydrostatics.volume;
+    igabem_hull_info info;
+    igabem_hull_get_info(hull, &info);
+    evaluator->parent_nu_s = info.nu_s;
     bool ok = igabem_options_freeze(hull, &evaluator->solver) == IGABEM_OK;
     if (!ok)
         cli_fail("%s: %s", config->path, igabem_last_error());

@@ -31,6 +31,7 @@ struct evaluator {
     double tolerance;
     double displacement;   /* allowed relative change of volume, NAN: any */
     double parent_volume;  /* m^3, of the parent built in the same way */
+    double parent_nu_s;    /* of its waterline */
     igabem_options solver; /* frozen on the parent */
     double *scratch;       /* coordinates numbers, owned */
 };

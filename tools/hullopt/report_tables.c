@@ -1,3 +1,4 @@
+#include "entrance.h"
 #include "report_parts.h"
 
 #include "particulars.h"
@@ -47,6 +48,22 @@ static void breadth_row(FILE *out, const struct results *r)
         fprintf(out, "<td>≥ %g, %s</td></tr>\n", least, r->breadth >= least ? "kept" : "violated");
 }
 
+static void entrance_row(FILE *out, const struct results *r)
+{
+    double most = results_number(r->settings, "constraints.entrance");
+    double ratio = r->nu_s[1] / r->nu_s[0];
+    fputs("<tr class=\"total\"><td>Constraint: steepest waterline, |ν<sub>x</sub>|</td><td></td>",
+          out);
+    cell(out, "%.3f", r->nu_s[0]);
+    cell(out, "%.3f", r->nu_s[1]);
+    cell(out, "%+.1f %%", 100 * (ratio - 1));
+    if (isnan(most))
+        fputs("<td>none</td></tr>\n", out);
+    else
+        fprintf(out, "<td>≤ %+g %%, %s</td></tr>\n", 100 * (most - 1),
+                ratio <= ENTRANCE_SLACK * most ? "kept" : "violated");
+}
+
 static void resistance_row(FILE *out, const char *label, double before, double after)
 {
     fprintf(out, "<tr class=\"total\"><td>%s</td><td>10⁻³</td>", label);
@@ -70,6 +87,7 @@ void report_particulars(FILE *out, const struct results *r)
                    r->best->cw_pressure);
     displacement_row(out, r);
     breadth_row(out, r);
+    entrance_row(out, r);
     for (size_t i = 0; i < n; i++) {
         fprintf(out, "<tr><td>%s</td><td>%s</td>", list[i].label, list[i].unit);
         for (int k = 0; k < 2; k++)

@@ -81,8 +81,22 @@ static bool build(const struct results *r, const double *u, struct design *desig
 
 static bool load_designs(struct results *r)
 {
-    return !r->baseline ||
-           (build(r, r->baseline->u, &r->designs[0]) && build(r, r->best->u, &r->designs[1]));
+    r->nu_s[0] = r->nu_s[1] = NAN;
+    if (!r->baseline)
+        return true;
+    if (!build(r, r->baseline->u, &r->designs[0]) || !build(r, r->best->u, &r->designs[1]))
+        return false;
+    for (int k = 0; k < 2; k++) {
+        const nurbs_surface *patch = r->designs[k].light;
+        igabem_hull *hull;
+        igabem_hull_info info;
+        if (igabem_hull_create(&patch, 1, IGABEM_SYMMETRIC, &hull) != IGABEM_OK)
+            continue;
+        igabem_hull_get_info(hull, &info);
+        r->nu_s[k] = info.nu_s;
+        igabem_hull_free(hull);
+    }
+    return true;
 }
 
 static void measure_breadth(struct results *r)

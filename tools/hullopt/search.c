@@ -21,6 +21,8 @@ static int known_limits(void *data, size_t d, const double *u, double *value)
     *value++ = -breadth.least_y / search->evaluator->parent->length - TOUCH;
     if (!isnan(config->breadth))
         *value++ = config->breadth - breadth.least_share;
+    if (!isnan(config->entrance))
+        *value++ = entrance_ratio(&search->entrance, search->limits.latent, u) - config->entrance;
     if (isnan(config->displacement))
         return 0;
     double change = limits_volume_ratio(&search->limits, u) - 1;
@@ -32,7 +34,8 @@ static int known_limits(void *data, size_t d, const double *u, double *value)
 
 static size_t count_limits(const struct config *config)
 {
-    return 1u + (isnan(config->breadth) ? 0u : 1u) + (isnan(config->displacement) ? 0u : 2u);
+    return 1u + (isnan(config->breadth) ? 0u : 1u) + (isnan(config->entrance) ? 0u : 1u) +
+           (isnan(config->displacement) ? 0u : 2u);
 }
 
 bool search_create(const struct config *config, struct evaluator *evaluator, const char *path,
@@ -40,8 +43,10 @@ bool search_create(const struct config *config, struct evaluator *evaluator, con
 {
     const struct latent *latent = evaluator->latent;
     *search = (struct search){.config = config, .evaluator = evaluator};
-    if (!limits_create(latent, evaluator->parent->grid, volume_gradient, &search->limits)) {
+    if (!limits_create(latent, evaluator->parent->grid, volume_gradient, &search->limits) ||
+        !entrance_create(evaluator->parent->grid, evaluator->parent_nu_s, &search->entrance)) {
         cli_fail("out of memory");
+        search_free(search);
         return false;
     }
     bayesopt_options options;
@@ -68,6 +73,7 @@ void search_free(struct search *search)
 {
     bayesopt_free(search->bo);
     limits_free(&search->limits);
+    entrance_free(&search->entrance);
     search->bo = NULL;
 }
 

@@ -2,6 +2,7 @@
 #ifndef HULLOPT_SEARCH_H
 #define HULLOPT_SEARCH_H
 
+#include "entrance.h"
 #include "evaluate.h"
 #include "limits.h"
 #include "store.h"
@@ -13,6 +14,7 @@ struct search {
     struct evaluator *evaluator;
     struct store *store;
     struct limits limits;
+    struct entrance entrance;
     bayesopt *bo;
 };
 

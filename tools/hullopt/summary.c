@@ -1,3 +1,4 @@
+#include "entrance.h"
 #include "outputs.h"
 
 #include "particulars.h"
@@ -65,6 +66,14 @@ static json_t *constraints(const struct results *r)
     put(breadth, "after", r->breadth);
     put_flag(breadth, "satisfied", isnan(least) || r->breadth >= least);
     json_object_set_new(o, "breadth", breadth);
+    json_t *entrance = json_object();
+    double most = results_number(r->settings, "constraints.entrance");
+    put(entrance, "allowed", most);
+    put(entrance, "before", r->nu_s[0]);
+    put(entrance, "after", r->nu_s[1]);
+    put_flag(entrance, "satisfied",
+             isnan(most) || r->nu_s[1] <= ENTRANCE_SLACK * most * r->nu_s[0]);
+    json_object_set_new(o, "entrance", entrance);
     return o;
 }
 
