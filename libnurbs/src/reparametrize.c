@@ -14,9 +14,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Share of the tolerance for removal on the old parametrisation, which keeps the work small; the
- * rest is for the new one. */
-static const double first_share = 0.2;
+/* Shares of the tolerance for removal on the old parametrisation and for a first pass on the new
+ * one, which keep the work small; the rest is for a second pass. */
+static const double first_share = 0.05, even_share = 0.15;
 /* Divisions of a span before it is stretched: how closely speed within a span is evened out. */
 enum { DIVISIONS = 3, SAMPLES = 4, LINES = 24 };
 
@@ -138,18 +138,24 @@ nurbs_status nurbs_surface_simplify_geometric(const nurbs_surface *surface, doub
     if (flags & ~(unsigned)NURBS_KEEP_EDGES)
         return nurbs_fail(NURBS_ERROR_ARGUMENT, "flags are %#x, expected 0 or NURBS_KEEP_EDGES",
                           flags);
-    nurbs_surface *plain = NULL, *first = NULL, *even = NULL, *second = NULL;
-    double bounds[3];
-    nurbs_status status = nurbs_surface_simplify(surface, tolerance, flags, &plain, &bounds[0]);
+    /* The even net has most of its knots from the change itself: the quick search takes those. */
+    const unsigned thrifty = flags | NURBS_THRIFTY;
+    nurbs_surface *plain = NULL, *first = NULL, *even = NULL, *fewer = NULL, *second = NULL;
+    double bounds[4] = {0.0};
+    nurbs_status status = nurbs_surface_simplify(surface, tolerance, thrifty, &plain, &bounds[0]);
     if (status == NURBS_OK)
         status =
-            nurbs_surface_simplify(surface, first_share * tolerance, flags, &first, &bounds[1]);
+            nurbs_surface_simplify(surface, first_share * tolerance, thrifty, &first, &bounds[1]);
     if (status == NURBS_OK)
         status = even_surface(first, &even);
     if (status == NURBS_OK)
-        status = nurbs_surface_simplify(even, tolerance - bounds[1], flags, &second, &bounds[2]);
+        status = nurbs_surface_simplify(even, even_share * tolerance, flags, &fewer, &bounds[2]);
+    if (status == NURBS_OK)
+        status = nurbs_surface_simplify(fewer, tolerance - bounds[1] - bounds[2], thrifty, &second,
+                                        &bounds[3]);
     nurbs_surface_free(first);
     nurbs_surface_free(even);
+    nurbs_surface_free(fewer);
     if (status != NURBS_OK) {
         nurbs_surface_free(plain);
         return status;
@@ -158,6 +164,6 @@ nurbs_status nurbs_surface_simplify_geometric(const nurbs_surface *surface, doub
     *result = smaller ? second : plain;
     nurbs_surface_free(smaller ? plain : second);
     if (bound)
-        *bound = smaller ? bounds[1] + bounds[2] : bounds[0];
+        *bound = smaller ? bounds[1] + bounds[2] + bounds[3] : bounds[0];
     return NURBS_OK;
 }
