@@ -1,4 +1,5 @@
 #include "closest.h"
+#include "closest_proof.h"
 #include "error.h"
 
 #include <nurbs/invert.h>
@@ -6,6 +7,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 
 enum { MAX_STEPS = 60, MAX_HALVINGS = 40 };
 
@@ -218,48 +220,110 @@ void closest_differences(size_t count, size_t stride, const double *p, double *f
     }
 }
 
+/* The Bezier segments of a curve with their boxes. */
+struct segments {
+    nurbs_curve *bezier;
+    size_t count, *start; /* first control point */
+    double *bounds;       /* [count][6] */
+};
+
+static void segments_free(struct segments *s)
+{
+    nurbs_curve_free(s->bezier);
+    free(s->start);
+    free(s->bounds);
+}
+
+static nurbs_status segments_create(const nurbs_curve *curve, struct segments *s)
+{
+    *s = (struct segments){0};
+    nurbs_status status = nurbs_curve_to_bezier(curve, &s->bezier);
+    if (status != NURBS_OK)
+        return status;
+    const struct axis *axis = &s->bezier->axis;
+    const size_t p = (size_t)axis->degree;
+    s->start = malloc(axis->size * sizeof *s->start);
+    s->bounds = malloc(6 * axis->size * sizeof *s->bounds);
+    if (!s->start || !s->bounds) {
+        segments_free(s);
+        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory to locate in %zu spans", axis->size);
+    }
+    for (size_t k = p; k < axis->size; k++) {
+        if (axis->knots[k] == axis->knots[k + 1])
+            continue;
+        double *bounds = s->bounds + 6 * s->count;
+        s->start[s->count++] = k - p;
+        for (size_t c = 0; c < 3; c++) {
+            bounds[c] = HUGE_VAL;
+            bounds[3 + c] = -HUGE_VAL;
+        }
+        for (size_t i = 3 * (k - p); i < 3 * (k + 1); i++) {
+            bounds[i % 3] = fmin(bounds[i % 3], s->bezier->points[i]);
+            bounds[3 + i % 3] = fmax(bounds[3 + i % 3], s->bezier->points[i]);
+        }
+    }
+    return NURBS_OK;
+}
+
+static double search_interval(const void *context, const struct box2 *box, const double point[3],
+                              double uv[2])
+{
+    return closest_on_interval(context, box->low[0], box->high[0], point, uv);
+}
+
+static double prove_segment(const nurbs_curve *curve, const struct segments *s, size_t k,
+                            const double point[3], double best, double uv[2], size_t *cells)
+{
+    const struct axis *axis = &s->bezier->axis;
+    const size_t p = (size_t)axis->degree;
+    const struct bezier_patch patch = {
+        {p + 1, 1},
+        s->bezier->net + 4 * s->start[k],
+        4,
+        {{axis->knots[s->start[k] + p], 0.0}, {axis->knots[s->start[k] + p + 1], 0.0}}};
+    return closest_prove(&patch, point, search_interval, curve, best, uv, cells);
+}
+
+static double closest_on_curve(const nurbs_curve *curve, const struct segments *s,
+                               const double point[3], double *u)
+{
+    size_t first = 0, cells = CLOSEST_CELLS;
+    double nearest = HUGE_VAL, uv[2] = {0.0, 0.0};
+    for (size_t k = 0; k < s->count; k++) {
+        const double d = distance_to_bounds(point, s->bounds + 6 * k);
+        if (d < nearest) {
+            nearest = d;
+            first = k;
+        }
+    }
+    double best = prove_segment(curve, s, first, point, HUGE_VAL, uv, &cells);
+    for (size_t k = 0; k < s->count; k++)
+        if (k != first && distance_to_bounds(point, s->bounds + 6 * k) < best)
+            best = prove_segment(curve, s, k, point, best, uv, &cells);
+    /* A minimum next to the end of a segment may lie immaterially beyond it. */
+    *u = uv[0];
+    const double square = closest_on_interval(curve, curve->axis.knots[0],
+                                              curve->axis.knots[curve->axis.size], point, u);
+    if (square < best)
+        return square;
+    *u = uv[0];
+    return best;
+}
+
 nurbs_status nurbs_curve_closest(const nurbs_curve *curve, size_t n, const double *points,
                                  double *u, double *distance)
 {
     nurbs_status status = closest_check(curve, n, points, u);
+    struct segments segments;
+    if (status == NURBS_OK)
+        status = segments_create(curve, &segments);
     if (status != NURBS_OK)
         return status;
-    nurbs_curve *bezier;
-    status = nurbs_curve_to_bezier(curve, &bezier);
-    if (status != NURBS_OK)
-        return status;
-    const struct axis *axis = &bezier->axis;
-    const size_t p = (size_t)axis->degree;
     for (size_t i = 0; i < n; i++) {
-        const double *point = points + 3 * i;
-        double best = HUGE_VAL;
-        for (size_t s = p; s < axis->size; s++) {
-            const double low = axis->knots[s], high = axis->knots[s + 1];
-            if (low == high)
-                continue;
-            double bounds[6] = {HUGE_VAL, HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-            for (size_t k = 3 * (s - p); k < 3 * (s + 1); k++) {
-                bounds[k % 3] = fmin(bounds[k % 3], bezier->points[k]);
-                bounds[3 + k % 3] = fmax(bounds[3 + k % 3], bezier->points[k]);
-            }
-            double first = 0.0, second = 0.0;
-            closest_differences(p + 1, 3, bezier->points + 3 * (s - p), &first, &second);
-            const int parts = closest_parts(first, second);
-            for (int part = 0; part < parts && distance_to_bounds(point, bounds) < best; part++) {
-                const double width = (high - low) / parts;
-                const double from = low + part * width;
-                const double to = part + 1 == parts ? high : from + width;
-                double at = from + 0.5 * width;
-                const double square = closest_on_interval(curve, from, to, point, &at);
-                if (square < best) {
-                    best = square;
-                    u[i] = at;
-                }
-            }
-        }
+        const double square = closest_on_curve(curve, &segments, points + 3 * i, u + i);
         if (distance)
-            distance[i] = sqrt(best);
+            distance[i] = sqrt(square);
     }
-    nurbs_curve_free(bezier);
+    segments_free(&segments);
     return NURBS_OK;
 }

@@ -1,6 +1,6 @@
 /* Closest points of a surface by a tree of bounding boxes: the leaves are parts of its Bezier
  * patches, whose control points bound them (convex hull), and each level above joins 2 x 2. */
-#include "closest.h"
+#include "closest_proof.h"
 #include "error.h"
 
 #include <nurbs/basis.h>
@@ -13,7 +13,8 @@
 enum { MAX_LEVELS = 48 };
 
 struct nurbs_locator {
-    nurbs_surface *surface;
+    nurbs_surface *surface, *leaves; /* as given, and as the Bezier patches of the leaves */
+    size_t *starts[2];               /* first control points of the leaves */
     int levels;
     size_t size[MAX_LEVELS][2];
     double *bounds[MAX_LEVELS]; /* [size 0][size 1][6]: low and high corner */
@@ -25,6 +26,9 @@ void nurbs_locator_free(nurbs_locator *locator)
     if (!locator)
         return;
     nurbs_surface_free(locator->surface);
+    nurbs_surface_free(locator->leaves);
+    free(locator->starts[0]);
+    free(locator->starts[1]);
     for (int k = 0; k < locator->levels; k++)
         free(locator->bounds[k]);
     free(locator->breaks[0]);
@@ -68,10 +72,9 @@ static nurbs_status leaf_starts(const struct axis *axis, double **breaks, size_t
 
 static nurbs_status make_leaves(const nurbs_surface *bezier, nurbs_locator *l)
 {
-    size_t *starts[2] = {NULL, NULL};
     nurbs_status status = NURBS_OK;
     for (int d = 0; d < 2 && status == NURBS_OK; d++)
-        status = leaf_starts(&bezier->axis[d], &l->breaks[d], &starts[d], &l->size[0][d]);
+        status = leaf_starts(&bezier->axis[d], &l->breaks[d], &l->starts[d], &l->size[0][d]);
     if (status == NURBS_OK) {
         l->bounds[0] = new_bounds(l->size[0][0] * l->size[0][1]);
         if (!l->bounds[0])
@@ -86,11 +89,9 @@ static nurbs_status make_leaves(const nurbs_surface *bezier, nurbs_locator *l)
                 for (size_t b = 0; b <= pv; b++) {
                     const double *p =
                         bezier->points +
-                        3 * ((starts[0][i] + a) * bezier->axis[1].size + starts[1][j] + b);
+                        3 * ((l->starts[0][i] + a) * bezier->axis[1].size + l->starts[1][j] + b);
                     join(box, p, p);
                 }
-    free(starts[0]);
-    free(starts[1]);
     return status;
 }
 
@@ -155,7 +156,7 @@ nurbs_status nurbs_locator_create(const nurbs_surface *surface, nurbs_locator **
     nurbs_locator *l = calloc(1, sizeof *l);
     if (!l)
         return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for a locator");
-    nurbs_surface *bezier = NULL, *half = NULL, *cut = NULL, *leaves = NULL;
+    nurbs_surface *bezier = NULL, *half = NULL, *cut = NULL;
     nurbs_status status = nurbs_surface_copy(surface, &l->surface);
     if (status == NURBS_OK)
         status = nurbs_surface_to_bezier(surface, &bezier);
@@ -164,15 +165,14 @@ nurbs_status nurbs_locator_create(const nurbs_surface *surface, nurbs_locator **
     if (status == NURBS_OK)
         status = cut_spans(half, 0, &cut);
     if (status == NURBS_OK)
-        status = nurbs_surface_to_bezier(cut, &leaves);
+        status = nurbs_surface_to_bezier(cut, &l->leaves);
     if (status == NURBS_OK)
-        status = make_leaves(leaves, l);
+        status = make_leaves(l->leaves, l);
     if (status == NURBS_OK)
         status = make_levels(l);
     nurbs_surface_free(bezier);
     nurbs_surface_free(half);
     nurbs_surface_free(cut);
-    nurbs_surface_free(leaves);
     if (status != NURBS_OK)
         nurbs_locator_free(l);
     else
@@ -206,29 +206,51 @@ static size_t push_children(const nurbs_locator *l, const struct node *node, con
     return height;
 }
 
+static double search_box(const void *context, const struct box2 *box, const double point[3],
+                         double uv[2])
+{
+    return closest_in_box(context, box, point, uv);
+}
+
+static double prove_leaf(const nurbs_locator *l, size_t i, size_t j, const double point[3],
+                         double best, double uv[2], size_t *cells)
+{
+    const struct axis *axis = l->leaves->axis;
+    const struct bezier_patch patch = {
+        {(size_t)axis[0].degree + 1, (size_t)axis[1].degree + 1},
+        l->leaves->net + 4 * (l->starts[0][i] * axis[1].size + l->starts[1][j]),
+        4 * axis[1].size,
+        {{l->breaks[0][i], l->breaks[1][j]}, {l->breaks[0][i + 1], l->breaks[1][j + 1]}}};
+    return closest_prove(&patch, point, search_box, l->surface, best, uv, cells);
+}
+
 static double closest(const nurbs_locator *l, const double point[3], double uv[2])
 {
     struct node stack[4 * MAX_LEVELS];
-    size_t height = 1;
+    size_t height = 1, cells = CLOSEST_CELLS;
     double best = HUGE_VAL;
     stack[0] = (struct node){l->levels - 1, 0, 0, 0.0};
     while (height > 0) {
         const struct node node = stack[--height];
         if (node.nearest >= best)
             continue;
-        if (node.level > 0) {
+        if (node.level > 0)
             height = push_children(l, &node, point, stack, height);
-            continue;
-        }
-        const struct box2 box = {{l->breaks[0][node.i], l->breaks[1][node.j]},
-                                 {l->breaks[0][node.i + 1], l->breaks[1][node.j + 1]}};
-        double at[2] = {0.5 * (box.low[0] + box.high[0]), 0.5 * (box.low[1] + box.high[1])};
-        const double square = closest_in_box(l->surface, &box, point, at);
-        if (square < best) {
-            best = square;
-            uv[0] = at[0];
-            uv[1] = at[1];
-        }
+        else
+            best = prove_leaf(l, node.i, node.j, point, best, uv, &cells);
+    }
+    /* A minimum next to the edge of a leaf may lie immaterially beyond it. */
+    struct box2 domain;
+    double at[2] = {uv[0], uv[1]};
+    for (int d = 0; d < 2; d++) {
+        domain.low[d] = l->surface->axis[d].knots[0];
+        domain.high[d] = l->surface->axis[d].knots[l->surface->axis[d].size];
+    }
+    const double square = closest_in_box(l->surface, &domain, point, at);
+    if (square < best) {
+        best = square;
+        uv[0] = at[0];
+        uv[1] = at[1];
     }
     return best;
 }

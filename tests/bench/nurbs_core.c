@@ -537,6 +537,44 @@ static void bench_curve_fit(double tolerance, int repetitions)
     free(p);
 }
 
+/* Points around the hull, about 1 m away. */
+static void bench_closest(int repetitions)
+{
+    enum { POINTS = 500 };
+    nurbs_surface *s = hull(90, 25, 0, 0);
+    nurbs_locator *locator;
+    double points[3 * POINTS], uv[2 * POINTS], distance[POINTS], ours = -1.0, theirs = -1.0;
+    double farther = 0.0;
+    uint64_t state = 3;
+    must(nurbs_locator_create(s, &locator));
+    for (size_t i = 0; i < POINTS; i++) {
+        const double at[2] = {random_unit(&state), random_unit(&state)};
+        must(nurbs_surface_eval(s, 0, 1, at, points + 3 * i));
+        for (size_t c = 0; c < 3; c++)
+            points[3 * i + c] += 2.0 * (random_unit(&state) - 0.5);
+    }
+    for (int r = 0; r < repetitions; r++)
+        BEST(ours, must(nurbs_locator_closest(locator, POINTS, points, uv, distance)));
+#ifdef HAVE_SISL
+    SISLSurf *peer = peer_surface(s);
+    BEST(theirs, {
+        for (size_t i = 0; i < POINTS; i++) {
+            double at[2];
+            double d;
+            int status;
+            s1958(peer, points + 3 * i, 3, 1e-15, 1e-9, at, &d, &status);
+            farther += d > distance[i] * (1.0 + 1e-9);
+        }
+    });
+    freeSurf(peer);
+#endif
+    char note[80];
+    snprintf(note, sizeof note, "peer farther for %g of %d points", farther, POINTS);
+    report("closest point, global, 90x25", ours / POINTS * 1e6, theirs / POINTS * 1e6, "us", note);
+    nurbs_locator_free(locator);
+    nurbs_surface_free(s);
+}
+
 static void bench_simplify(const char *name, nurbs_surface *s, double tolerance, int repetitions)
 {
     double ours = -1.0, theirs = -1.0, thrifty = -1.0, bound = 0.0;
@@ -634,6 +672,7 @@ int main(int argc, char **argv)
     bench_grid_fit(1e-3, repetitions);
     bench_curve_fit(1e-3, repetitions);
     bench_curve_fit(1e-5, repetitions);
+    bench_closest(repetitions);
     bench_simplifications(repetitions);
     return 0;
 }

@@ -161,7 +161,82 @@ static void test_kink_and_corner(void)
     nurbs_locator_free(NULL);
 }
 
+/* One Bezier segment or patch of high degree turns several times, so that the distance has several
+ * local minima in it: none of a dense sampling may be lower than the one found. */
+static void test_many_minima(void)
+{
+    enum { DEGREE = 9, SAMPLES = 4000, SIDE = 160, PATCH = 5 };
+    uint64_t state = 67;
+    const double ends[2 * (DEGREE + 1)] = {[DEGREE + 1] = 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+    for (int k = 0; k < 12; k++) {
+        double p[3 * (DEGREE + 1)], weights[DEGREE + 1], *u = malloc(4 * SAMPLES * sizeof *u);
+        CU_ASSERT_PTR_NOT_NULL_FATAL(u);
+        for (size_t i = 0; i <= DEGREE; i++) {
+            p[3 * i] = (double)i / DEGREE;
+            p[3 * i + 1] = (i % 2 ? 4.0 : -4.0) * random_unit(&state);
+            p[3 * i + 2] = random_unit(&state);
+            weights[i] = 0.5 + random_unit(&state);
+        }
+        nurbs_curve *c;
+        CU_ASSERT_EQUAL_FATAL(
+            nurbs_curve_create(DEGREE, DEGREE + 1, ends, p, k % 2 ? weights : NULL, &c), NURBS_OK);
+        for (size_t i = 0; i < SAMPLES; i++)
+            u[i] = (double)i / (SAMPLES - 1);
+        nurbs_curve_eval(c, 0, SAMPLES, u, u + SAMPLES);
+        for (int i = 0; i < 25; i++) {
+            const double q[3] = {random_unit(&state), random_unit(&state) - 0.5, 0.5};
+            double at, distance, sampled = HUGE_VAL;
+            CU_ASSERT_EQUAL(nurbs_curve_closest(c, 1, q, &at, &distance), NURBS_OK);
+            for (size_t s = 0; s < SAMPLES; s++) {
+                const double *x = u + SAMPLES + 3 * s;
+                sampled = fmin(sampled, hypot(hypot(x[0] - q[0], x[1] - q[1]), x[2] - q[2]));
+            }
+            CU_ASSERT(distance <= sampled * (1.0 + 1e-12));
+            CU_ASSERT(sampled <= distance + 2e-2); /* and it is a point of the curve */
+        }
+        free(u);
+        nurbs_curve_free(c);
+    }
+    for (int k = 0; k < 6; k++) {
+        const int degree[2] = {PATCH, PATCH};
+        const size_t size[2] = {PATCH + 1, PATCH + 1};
+        double knots[2 * (PATCH + 1)] = {0}, p[3 * (PATCH + 1) * (PATCH + 1)];
+        double weights[(PATCH + 1) * (PATCH + 1)], grid[SIDE];
+        double *net = malloc(3 * SIDE * SIDE * sizeof *net);
+        CU_ASSERT_PTR_NOT_NULL_FATAL(net);
+        for (size_t i = 0; i < (PATCH + 1) * (PATCH + 1); i++) {
+            p[3 * i] = (double)(i / (PATCH + 1)) / PATCH;
+            p[3 * i + 1] = (double)(i % (PATCH + 1)) / PATCH;
+            p[3 * i + 2] = 6.0 * random_unit(&state) - 3.0;
+            weights[i] = 0.5 + random_unit(&state);
+        }
+        for (int i = 0; i <= PATCH; i++)
+            knots[PATCH + 1 + i] = 1.0;
+        nurbs_surface *s;
+        CU_ASSERT_EQUAL_FATAL(
+            nurbs_surface_create(degree, size, knots, knots, p, k % 2 ? weights : NULL, &s),
+            NURBS_OK);
+        for (size_t i = 0; i < SIDE; i++)
+            grid[i] = (double)i / (SIDE - 1);
+        nurbs_surface_eval_grid(s, 0, SIDE, grid, SIDE, grid, net);
+        for (int i = 0; i < 20; i++) {
+            const double q[3] = {random_unit(&state), random_unit(&state),
+                                 2.0 * random_unit(&state) - 1.0};
+            double uv[2], distance, sampled = HUGE_VAL;
+            CU_ASSERT_EQUAL(nurbs_surface_closest(s, 1, q, uv, &distance), NURBS_OK);
+            for (size_t x = 0; x < SIDE * SIDE; x++)
+                sampled = fmin(sampled, hypot(hypot(net[3 * x] - q[0], net[3 * x + 1] - q[1]),
+                                              net[3 * x + 2] - q[2]));
+            CU_ASSERT(distance <= sampled * (1.0 + 1e-12));
+            CU_ASSERT(sampled <= distance + 5e-2);
+        }
+        free(net);
+        nurbs_surface_free(s);
+    }
+}
+
 static const struct check_case cases[] = {
+    {"several minima in one patch", test_many_minima},
     {"surfaces against sampling", test_surface_against_sampling},
     {"sphere", test_sphere},
     {"curves against sampling", test_curve_against_sampling},
