@@ -8,65 +8,58 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { PANEL = 10 }; /* Gauss nodes of a panel */
+enum { PANEL = 10 };  /* Gauss nodes of a panel */
+enum { BLOCK = 256 }; /* sources whose waves are kept at a time */
 
 static const double PANEL_PHASE = 16.0; /* radians per panel */
 static const double PANEL_WIDTH = 0.4;  /* in asinh t */
 static const double DECAY = 40.0;       /* sources beyond e^-40 are left out */
 
-/* Both sides at once: q e^{a z} 2 cos(b y) (cos, sin)(k x). */
+/* Elementary waves at the places of a block: e^{a z} (cos, sin)(k x + b y), both sides at once if
+ * symmetric: e^{a z} 2 cos(b y) (cos, sin)(k x). z NULL: on the waterline. */
 WAVE_MULTIVERSION
-static void sum_symmetric(double a, double b, double k, size_t n, const double *restrict x,
-                          const double *restrict y, const double *restrict z,
-                          const double *restrict q, double *restrict h)
+static void block_waves(int symmetric, double a, double b, double k, size_t n,
+                        const double *restrict x, const double *restrict y,
+                        const double *restrict z, double *restrict re, double *restrict im)
 {
-    double re = 0.0, im = 0.0;
-#pragma omp simd reduction(+ : re, im)
-    for (size_t j = 0; j < n; j++) {
-        double s, c, sy, cy;
-        wave_sincos(k * x[j], &s, &c);
-        wave_sincos(b * y[j], &sy, &cy);
-        double e = 2.0 * q[j] * wave_exp(a * z[j]) * cy;
-        re += e * c;
-        im += e * s;
-    }
-    h[0] += re;
-    h[1] += im;
-}
-
-WAVE_MULTIVERSION
-static void sum_plain(double a, double b, double k, size_t n, const double *restrict x,
-                      const double *restrict y, const double *restrict z, const double *restrict q,
-                      double *restrict h)
-{
-    double re = 0.0, im = 0.0;
-#pragma omp simd reduction(+ : re, im)
-    for (size_t j = 0; j < n; j++) {
-        double s, c;
-        wave_sincos(k * x[j] + b * y[j], &s, &c);
-        double e = q[j] * wave_exp(a * z[j]);
-        re += e * c;
-        im += e * s;
-    }
-    h[0] += re;
-    h[1] += im;
-}
-
-WAVE_MULTIVERSION
-static void sum_line(int symmetric, double b, double k, size_t n, const double *restrict x,
-                     const double *restrict y, const double *restrict q, double *restrict h)
-{
-    double re = 0.0, im = 0.0, factor = symmetric ? 2.0 : 1.0, along = symmetric ? 0.0 : b;
-#pragma omp simd reduction(+ : re, im)
+    double along = symmetric ? 0.0 : b, across = b - along, factor = symmetric ? 2.0 : 1.0;
+    for (size_t j = 0; j < n; j++)
+        re[j] = z ? factor * wave_exp(a * z[j]) : factor;
+#pragma omp simd
     for (size_t j = 0; j < n; j++) {
         double s, c, sy, cy;
         wave_sincos(k * x[j] + along * y[j], &s, &c);
-        wave_sincos((b - along) * y[j], &sy, &cy);
-        re += factor * q[j] * cy * c;
-        im += factor * q[j] * cy * s;
+        wave_sincos(across * y[j], &sy, &cy);
+        double e = re[j] * cy;
+        re[j] = e * c;
+        im[j] = e * s;
     }
-    h[0] += re;
-    h[1] += im;
+}
+
+WAVE_MULTIVERSION
+static double dot(size_t n, const double *restrict p, const double *restrict q)
+{
+    double sum = 0.0;
+#pragma omp simd reduction(+ : sum)
+    for (size_t j = 0; j < n; j++)
+        sum += p[j] * q[j];
+    return sum;
+}
+
+/* Adds to h the waves of n sources for every set of strengths. */
+static void add_waves(int symmetric, double a, double b, double k, size_t n, const double *x,
+                      const double *y, const double *z, size_t sets, const double *const *strength,
+                      double (*h)[2])
+{
+    double re[BLOCK], im[BLOCK];
+    for (size_t begin = 0; begin < n; begin += BLOCK) {
+        size_t m = n - begin < BLOCK ? n - begin : BLOCK;
+        block_waves(symmetric, a, b, k, m, x + begin, y + begin, z ? z + begin : NULL, re, im);
+        for (size_t l = 0; l < sets; l++) {
+            h[l][0] += dot(m, re, strength[l] + begin);
+            h[l][1] += dot(m, im, strength[l] + begin);
+        }
+    }
 }
 
 /* Number of sources above the depth (they are ordered by depth). */
@@ -83,18 +76,29 @@ static size_t shallower(const struct sources *sources, double depth)
     return low;
 }
 
+void amplitude_sets(size_t sets, const struct sources *const *sources, double k0, double t,
+                    double (*h)[2])
+{
+    const struct sources *places = sources[0];
+    const double *strength[AMPLITUDE_SETS], *line_strength[AMPLITUDE_SETS];
+    double a = k0 * (1.0 + t * t), k = k0 * sqrt(1.0 + t * t), b = k * t;
+    for (size_t l = 0; l < sets; l++) {
+        strength[l] = sources[l]->strength;
+        line_strength[l] = sources[l]->line_strength;
+        h[l][0] = h[l][1] = 0.0;
+    }
+    add_waves(places->symmetric, a, b, k, shallower(places, DECAY / a), places->x, places->y,
+              places->z, sets, strength, h);
+    add_waves(places->symmetric, a, b, k, places->n_line, places->line_x, places->line_y, NULL,
+              sets, line_strength, h);
+}
+
 void amplitude(const struct sources *sources, double k0, double t, double h[2])
 {
-    double a = k0 * (1.0 + t * t), k = k0 * sqrt(1.0 + t * t), b = k * t;
-    size_t n = shallower(sources, DECAY / a);
-    h[0] = h[1] = 0.0;
-    if (sources->symmetric)
-        sum_symmetric(a, b, k, n, sources->x, sources->y, sources->z, sources->strength, h);
-    else
-        sum_plain(a, b, k, n, sources->x, sources->y, sources->z, sources->strength, h);
-    if (sources->n_line)
-        sum_line(sources->symmetric, b, k, sources->n_line, sources->line_x, sources->line_y,
-                 sources->line_strength, h);
+    double one[1][2];
+    amplitude_sets(1, &sources, k0, t, one);
+    h[0] = one[0][0];
+    h[1] = one[0][1];
 }
 
 /* End of the panel that starts at v. */
@@ -155,8 +159,23 @@ igabem_status amplitude_rule(double k0, double length, double beam, double t_max
     return IGABEM_OK;
 }
 
-igabem_status amplitude_integrate(const struct sources *sources, double k0, double length,
-                                  double beam, double t_max, double t_break,
+/* |H|^2 at t, both signs of t. */
+static void squares(size_t sets, const struct sources *const *sources, double k0, double t,
+                    double square[AMPLITUDE_SETS])
+{
+    double h[AMPLITUDE_SETS][2], factor = sources[0]->symmetric ? 2.0 : 1.0;
+    amplitude_sets(sets, sources, k0, t, h);
+    for (size_t l = 0; l < sets; l++)
+        square[l] = factor * (h[l][0] * h[l][0] + h[l][1] * h[l][1]);
+    if (sources[0]->symmetric)
+        return;
+    amplitude_sets(sets, sources, k0, -t, h);
+    for (size_t l = 0; l < sets; l++)
+        square[l] += h[l][0] * h[l][0] + h[l][1] * h[l][1];
+}
+
+igabem_status amplitude_integrate(size_t sets, const struct sources *const *sources, double k0,
+                                  double length, double beam, double t_max, double t_break,
                                   struct amplitude_sum *sum)
 {
     size_t n;
@@ -164,28 +183,29 @@ igabem_status amplitude_integrate(const struct sources *sources, double k0, doub
     igabem_status status = amplitude_rule(k0, length, beam, t_max, t_break, &n, &t, &weight);
     if (status)
         return status;
-        /* Replaces every weight by the integrand, so that the sum below has one order whatever the
-         * number of threads. */
-#pragma omp parallel for schedule(dynamic, 8)
-    for (size_t i = 0; i < n; i++) {
-        double h[2], factor = sources->symmetric ? 2.0 : 1.0, square;
-        amplitude(sources, k0, t[i], h);
-        square = h[0] * h[0] + h[1] * h[1];
-        if (!sources->symmetric) {
-            amplitude(sources, k0, -t[i], h);
-            square += h[0] * h[0] + h[1] * h[1];
-        }
-        weight[i] *= factor * square * sqrt(1.0 + t[i] * t[i]);
+    double(*square)[AMPLITUDE_SETS] = malloc((n + 1) * sizeof *square);
+    if (!square) {
+        free(t);
+        free(weight);
+        return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu wave angles", n);
     }
-    *sum = (struct amplitude_sum){0, 0};
-    for (size_t i = 0; i < n; i++) {
-        sum->total += weight[i];
-        if (t_break > 0 && t[i] > t_break)
-            sum->beyond += weight[i];
+    /* The sum below has one order whatever the number of threads. */
+#pragma omp parallel for schedule(dynamic, 8)
+    for (size_t i = 0; i < n; i++)
+        squares(sets, sources, k0, t[i], square[i]);
+    for (size_t l = 0; l < sets; l++) {
+        sum[l] = (struct amplitude_sum){0, 0};
+        for (size_t i = 0; i < n; i++) {
+            double part = weight[i] * square[i][l] * sqrt(1.0 + t[i] * t[i]);
+            sum[l].total += part;
+            if (t_break > 0 && t[i] > t_break)
+                sum[l].beyond += part;
+        }
+        if (!isfinite(sum[l].total))
+            status = igabem_fail(IGABEM_ERROR_NUMERIC, "the wave spectrum is not finite");
     }
     free(t);
     free(weight);
-    if (!isfinite(sum->total))
-        return igabem_fail(IGABEM_ERROR_NUMERIC, "the wave spectrum is not finite");
-    return IGABEM_OK;
+    free(square);
+    return status;
 }

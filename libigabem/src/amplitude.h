@@ -9,6 +9,12 @@
  * (decay e^-40) are not visited. */
 void amplitude(const struct sources *sources, double k0, double t, double h[2]);
 
+/* The same for up to AMPLITUDE_SETS sources that differ in their strengths only: fills h[sets][2].
+ * The waves at their common places are computed once. */
+enum { AMPLITUDE_SETS = 3 };
+void amplitude_sets(size_t sets, const struct sources *const *sources, double k0, double t,
+                    double (*h)[2]);
+
 /* A rule for Int f(t) dt, 0 <= t <= t_max, of products of two amplitudes: Gauss panels in v, t =
  * sinh v, short enough for the phase k0 sqrt(1+t^2) (length + t beam). t_break (0: none) is the end
  * of a panel. Creates *t and *weight. */
@@ -22,9 +28,10 @@ struct amplitude_sum {
     double beyond; /* its part from |t| > t_break */
 };
 
-/* Integrates the spectrum of the sources over 0 <= |t| <= t_max. */
-igabem_status amplitude_integrate(const struct sources *sources, double k0, double length,
-                                  double beam, double t_max, double t_break,
+/* Integrates the spectra over 0 <= |t| <= t_max of up to AMPLITUDE_SETS sources that differ in
+ * their strengths only: fills sum[sets]. */
+igabem_status amplitude_integrate(size_t sets, const struct sources *const *sources, double k0,
+                                  double length, double beam, double t_max, double t_break,
                                   struct amplitude_sum *sum);
 
 #endif

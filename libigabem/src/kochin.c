@@ -17,39 +17,39 @@ static double coefficient(const igabem_solution *solution)
     return solution->k0 * solution->k0 / (PI * speed * speed * area);
 }
 
-static igabem_status resistance(const igabem_solution *solution, enum radiation_cutoff cutoff,
-                                double t_break, double *cw, double *beyond)
-{
-    struct sources *sources;
-    struct amplitude_sum sum;
-    double limit = radiation_limit(solution), length, beam;
-    igabem_status status = radiation_sources(solution, cutoff, limit, &sources);
-    if (status)
-        return status;
-    radiation_extent(solution, &length, &beam);
-    status = amplitude_integrate(sources, solution->k0, length, beam, limit, t_break, &sum);
-    sources_free(sources);
-    if (status)
-        return status;
-    *cw = coefficient(solution) * sum.total;
-    *beyond = sum.total > 0 ? sum.beyond / sum.total : 0.0;
-    return IGABEM_OK;
-}
-
 igabem_status kochin_resistance(const igabem_solution *solution, struct kochin_resistance *result)
 {
     *result = (struct kochin_resistance){NAN, NAN, NAN, NAN};
     if (!solution->waves)
         return IGABEM_OK;
-    double ignored;
-    igabem_status status =
-        resistance(solution, RADIATION_AS_SOLVED, radiation_cutoff_angle(solution), &result->cw,
-                   &result->share_beyond_cutoff);
-    if (!status && solution->sigma_lower)
-        status = resistance(solution, RADIATION_LOWER, 0.0, &result->cw_lower, &ignored);
-    if (!status && solution->sigma_upper)
-        status = resistance(solution, RADIATION_UPPER, 0.0, &result->cw_upper, &ignored);
-    return status;
+    const enum radiation_cutoff cutoff[AMPLITUDE_SETS] = {RADIATION_AS_SOLVED, RADIATION_LOWER,
+                                                          RADIATION_UPPER};
+    struct sources *sources[AMPLITUDE_SETS] = {NULL, NULL, NULL};
+    const struct sources *carriers[AMPLITUDE_SETS];
+    struct amplitude_sum sum[AMPLITUDE_SETS];
+    size_t sets = solution->sigma_lower && solution->sigma_upper ? AMPLITUDE_SETS : 1;
+    double limit = radiation_limit(solution), length, beam;
+    igabem_status status = IGABEM_OK;
+    radiation_extent(solution, &length, &beam);
+    for (size_t l = 0; l < sets && !status; l++) {
+        status = radiation_sources(solution, cutoff[l], limit, &sources[l]);
+        carriers[l] = sources[l];
+    }
+    if (!status)
+        status = amplitude_integrate(sets, carriers, solution->k0, length, beam, limit,
+                                     radiation_cutoff_angle(solution), sum);
+    for (size_t l = 0; l < sets; l++)
+        sources_free(sources[l]);
+    if (status)
+        return status;
+    double scale = coefficient(solution);
+    result->cw = scale * sum[0].total;
+    result->share_beyond_cutoff = sum[0].total > 0 ? sum[0].beyond / sum[0].total : 0.0;
+    if (sets == AMPLITUDE_SETS) {
+        result->cw_lower = scale * sum[1].total;
+        result->cw_upper = scale * sum[2].total;
+    }
+    return IGABEM_OK;
 }
 
 igabem_status igabem_kochin(const igabem_solution *solution, size_t n, const double *t, double *h,

@@ -13,7 +13,8 @@ static double resistance(const struct sources *sources, double k0, double length
                          double t_max)
 {
     struct amplitude_sum sum = {NAN, NAN};
-    CU_ASSERT_EQUAL(amplitude_integrate(sources, k0, length, beam, t_max, 0.0, &sum), IGABEM_OK);
+    CU_ASSERT_EQUAL(amplitude_integrate(1, &sources, k0, length, beam, t_max, 0.0, &sum),
+                    IGABEM_OK);
     return RHO * k0 * k0 / (2 * PI) * sum.total;
 }
 
@@ -128,12 +129,54 @@ static void rule_and_share(void)
     free(t);
     free(w);
     double x[1] = {0}, y[1] = {0}, z[1] = {-0.2}, q[1] = {1};
-    struct sources sources = {.n = 1, .x = x, .y = y, .z = z, .strength = q};
+    const struct sources sources = {.n = 1, .x = x, .y = y, .z = z, .strength = q};
+    const struct sources *const list = &sources;
     struct amplitude_sum sum_all, sum_low;
-    CU_ASSERT_EQUAL(amplitude_integrate(&sources, 2, 1, 1, 9, 1.5, &sum_all), IGABEM_OK);
-    CU_ASSERT_EQUAL(amplitude_integrate(&sources, 2, 1, 1, 1.5, 0, &sum_low), IGABEM_OK);
+    CU_ASSERT_EQUAL(amplitude_integrate(1, &list, 2, 1, 1, 9, 1.5, &sum_all), IGABEM_OK);
+    CU_ASSERT_EQUAL(amplitude_integrate(1, &list, 2, 1, 1, 1.5, 0, &sum_low), IGABEM_OK);
     CHECK_RELATIVE(sum_all.total - sum_all.beyond, sum_low.total, 1e-12);
-    CU_ASSERT_EQUAL(amplitude_integrate(&sources, 2, 1, 1, NAN, 0, &sum_low), IGABEM_ERROR_NUMERIC);
+    CU_ASSERT_EQUAL(amplitude_integrate(1, &list, 2, 1, 1, NAN, 0, &sum_low), IGABEM_ERROR_NUMERIC);
+}
+
+/* Sets of strengths at common places radiate what each radiates alone; more sources than a block.
+ */
+static void sets_of_strengths(void)
+{
+    enum { N = 700, LINE = 300 };
+    static double x[N], y[N], z[N], q[3][N], line[3][LINE];
+    for (int i = 0; i < N; i++) {
+        x[i] = cos(1.3 * i);
+        y[i] = 0.1 * sin(0.7 * i);
+        z[i] = -0.4 * i / N;
+        for (int l = 0; l < 3; l++)
+            q[l][i] = cos(0.11 * i * (l + 1));
+    }
+    for (int i = 0; i < 3 * LINE; i++)
+        line[i / LINE][i % LINE] = sin(0.05 * i);
+    for (int symmetric = 0; symmetric < 2; symmetric++) {
+        struct sources sources[3];
+        const struct sources *const list[3] = {&sources[0], &sources[1], &sources[2]};
+        struct amplitude_sum all[3], one;
+        for (int l = 0; l < 3; l++)
+            sources[l] = (struct sources){.symmetric = symmetric,
+                                          .n = N,
+                                          .x = x,
+                                          .y = y,
+                                          .z = z,
+                                          .strength = q[l],
+                                          .n_line = LINE,
+                                          .line_x = x,
+                                          .line_y = y,
+                                          .line_strength = line[l]};
+        CU_ASSERT_EQUAL(amplitude_integrate(3, list, 6.0, 2.0, 0.2, 4.0, 2.0, all), IGABEM_OK);
+        for (int l = 0; l < 3; l++) {
+            CU_ASSERT_EQUAL(amplitude_integrate(1, &list[l], 6.0, 2.0, 0.2, 4.0, 2.0, &one),
+                            IGABEM_OK);
+            CHECK_RELATIVE(all[l].total, one.total, 1e-13);
+            CHECK_RELATIVE(all[l].beyond, one.beyond, 1e-13);
+        }
+        CU_ASSERT(fabs(all[0].total / all[1].total - 1.0) > 1e-3);
+    }
 }
 
 static const struct check_case cases[] = {
@@ -143,6 +186,7 @@ static const struct check_case cases[] = {
     {"implied mirror images", implied_images},
     {"public amplitudes of points", agrees_with_public_points},
     {"quadrature of the spectrum", rule_and_share},
+    {"several sets of strengths", sets_of_strengths},
 };
 
 CHECK_MAIN("kochin", cases)

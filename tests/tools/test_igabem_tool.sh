@@ -133,6 +133,12 @@ check "check warns of a full bow" $?
 "$igabem" solve "$hulls/wigley.json" --fr 0.3 --elements 8,3 2>&1 | grep -q warning
 [ $? -ne 0 ]
 check "no warning for the Wigley hull" $?
+"$igabem" solve "$hulls/wigley.json" --fr 0.3 --elements 16,4 > "$work/out"
+grep -q "C_w at 0.85 t_c 1.2[0-9]*e-03, at 1.15 t_c 1.2" "$work/out"
+check "C_w beside the cut-off with every result" $?
+"$igabem" solve "$hulls/wigley.json" --fr 0.3 --elements 8,3 --no-sensitivity | grep -q "0.85 t_c"
+[ $? -ne 0 ]
+check "without it on request" $?
 
 [ $failures -eq 0 ] && echo "all checks passed"
 exit $((failures > 0))

@@ -31,7 +31,9 @@ static int solve_forces(const struct solve_request *request, const struct hull_i
                         igabem_forces *forces)
 {
     igabem_solution *solution = NULL;
-    igabem_status status = igabem_solve(input->hull, &request->options, &solution);
+    igabem_options options = request->options;
+    options.sensitivity = 0;
+    igabem_status status = igabem_solve(input->hull, &options, &solution);
     if (!status)
         status = igabem_forces_compute(solution, forces);
     igabem_solution_free(solution);
