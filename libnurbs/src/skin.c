@@ -1,12 +1,13 @@
 /* Skinning of a grid: a curve through every section, then curves through their control points.
  *
  * Kinks. A tensor product can only break where a whole parameter line may break, so a station with
- * a kink gets a knot of multiplicity `degree`. Lines that turn less than the kink angle there are
- * still interpolated with full smoothness and only carry the extra knots: the hull stays C^2 where
- * it is smooth, and no tangent is invented at a station. */
+ * a kink and a column that is a chine get a knot of multiplicity `degree`. Lines that turn less
+ * than the kink angle there are still interpolated with full smoothness and only carry the extra
+ * knots: the hull stays C^2 where it is smooth, and no tangent is invented at a station. */
 #include "error.h"
 #include "interpolate.h"
 #include "parametrize.h"
+#include <nurbs/basis.h>
 #include <nurbs/section.h>
 
 #include <math.h>
@@ -25,7 +26,10 @@ typedef struct skin {
     double *u, *v;         /* parameters of rows and columns */
     size_t *kink;          /* row indices */
     unsigned char *active; /* [columns][kinks]: this column breaks at that kink */
-    double *net;           /* [columns][rows][3], then the control net of sections */
+    size_t chines;
+    const size_t *chine;   /* column indices */
+    unsigned char *broken; /* [rows][chines]: this section breaks at that chine */
+    double *net;           /* control points of the sections: [axis_v.size][rows][3] */
 } skin;
 
 static nurbs_status check_request(const nurbs_grid *grid, const nurbs_skin_options *options)
@@ -41,6 +45,16 @@ static nurbs_status check_request(const nurbs_grid *grid, const nurbs_skin_optio
                           columns, options->degree);
     if (isnan(options->kink_angle))
         return nurbs_fail(NURBS_ERROR_ARGUMENT, "kink_angle is NaN");
+    if (options->chine_count && !options->chine)
+        return nurbs_fail(NURBS_ERROR_ARGUMENT, "chine is NULL, expected %zu columns",
+                          options->chine_count);
+    for (size_t k = 0; k < options->chine_count; k++)
+        if (options->chine[k] < 1 || options->chine[k] + 1 >= columns ||
+            (k > 0 && options->chine[k] <= options->chine[k - 1]))
+            return nurbs_fail(NURBS_ERROR_ARGUMENT,
+                              "chine %zu is column %zu, expected increasing columns between the "
+                              "first and the last of %zu",
+                              k, options->chine[k] + 1, columns);
     for (size_t k = 0; k < 3 * rows * columns; k++)
         if (!isfinite(points[k]))
             return nurbs_fail(NURBS_ERROR_ARGUMENT, "grid point (%zu,%zu): coordinate %zu is %g",
@@ -53,18 +67,24 @@ static void skin_release(skin *work)
     free(work->u);
     free(work->kink);
     free(work->active);
+    free(work->broken);
     free(work->net);
 }
 
-static nurbs_status skin_reserve(const nurbs_grid *grid, skin *work)
+static nurbs_status skin_reserve(const nurbs_grid *grid, const nurbs_skin_options *options,
+                                 skin *work)
 {
     size_t rows = nurbs_grid_rows(grid), columns = nurbs_grid_columns(grid);
-    *work = (skin){rows, columns, 0, nurbs_grid_points(grid), NULL, NULL, NULL, NULL, NULL};
+    *work = (skin){.rows = rows,
+                   .columns = columns,
+                   .points = nurbs_grid_points(grid),
+                   .chines = options->chine_count,
+                   .chine = options->chine};
     work->u = malloc((rows + columns) * sizeof(double));
     work->kink = malloc(rows * sizeof(size_t));
     work->active = calloc(rows * columns, 1);
-    work->net = malloc(3 * rows * columns * sizeof(double));
-    if (!work->u || !work->kink || !work->active || !work->net) {
+    work->broken = calloc(rows * columns, 1);
+    if (!work->u || !work->kink || !work->active || !work->broken) {
         skin_release(work);
         return nurbs_fail(NURBS_ERROR_MEMORY, "no memory to skin %zu x %zu points", rows, columns);
     }
@@ -93,25 +113,82 @@ static void find_kinks(double angle, skin *work)
             work->active[j * work->kinks + k] = turning_at(work, work->kink[k], j) > angle;
 }
 
-/* Control points of the section curves: net[columns][rows][3]. */
-static nurbs_status section_curves(int degree, const double *knots, skin *work)
+/* The sections that turn at the chines. */
+static void find_broken(double angle, skin *work)
 {
     for (size_t i = 0; i < work->rows; i++)
-        for (size_t j = 0; j < work->columns; j++)
-            memcpy(work->net + 3 * (j * work->rows + i), work->points + 3 * (i * work->columns + j),
+        for (size_t k = 0; k < work->chines; k++) {
+            const double *p = work->points + 3 * (i * work->columns + work->chine[k]);
+            work->broken[i * work->chines + k] =
+                !(angle > 0) || nurbs_turning_angle(p - 3, p, p + 3) > angle;
+        }
+}
+
+/* Control points of the sections first ... last - 1, which break alike. */
+static nurbs_status solve_sections(const kinked_axis *axis, const skin *work, size_t first,
+                                   size_t last)
+{
+    size_t m = 3 * (last - first), rows = work->rows;
+    double *data = malloc((work->columns + axis->size) * m * sizeof *data);
+    if (!data)
+        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory to skin %zu sections", last - first);
+    double *control = data + work->columns * m;
+    for (size_t j = 0; j < work->columns; j++)
+        for (size_t i = first; i < last; i++)
+            memcpy(data + j * m + 3 * (i - first), work->points + 3 * (i * work->columns + j),
                    3 * sizeof(double));
-    banded factors;
-    nurbs_status status = collocation_factor(degree, work->columns, knots, work->v, &factors);
-    if (status == NURBS_OK) {
-        banded_solve(&factors, 3 * work->rows, work->net);
-        banded_free(&factors);
+    nurbs_status status =
+        kinked_axis_solve(axis, work->broken + first * work->chines, m, data, control);
+    for (size_t j = 0; j < axis->size && status == NURBS_OK; j++)
+        memcpy(work->net + 3 * (j * rows + first), control + j * m, m * sizeof(double));
+    free(data);
+    return status;
+}
+
+/* Control points of the section curves. */
+static nurbs_status section_curves(const kinked_axis *axis, const skin *work)
+{
+    nurbs_status status = NURBS_OK;
+    for (size_t first = 0, last; first < work->rows && status == NURBS_OK; first = last) {
+        for (last = first + 1; last < work->rows; last++)
+            if (memcmp(work->broken + first * work->chines, work->broken + last * work->chines,
+                       work->chines) != 0)
+                break;
+        status = solve_sections(axis, work, first, last);
     }
     return status;
 }
 
+/* With chines there are more control columns than columns: each takes the kinks of the column
+ * nearest to its Greville abscissa. Creates active[axis->size][kinks]. */
+static nurbs_status spread_active(const kinked_axis *axis, skin *work)
+{
+    unsigned char *active = calloc(axis->size * work->kinks + 1, 1);
+    double *greville = malloc(axis->size * sizeof *greville);
+    nurbs_status status = NURBS_OK;
+    if (active && greville) {
+        nurbs_greville(axis->degree, axis->size, axis->knots, greville);
+        for (size_t j = 0, column = 0; j < axis->size; j++) {
+            while (column + 1 < work->columns &&
+                   fabs(work->v[column + 1] - greville[j]) <= fabs(work->v[column] - greville[j]))
+                column++;
+            memcpy(active + j * work->kinks,
+                   work->active + (work->chines ? column : j) * work->kinks, work->kinks);
+        }
+        free(work->active);
+        work->active = active;
+        active = NULL;
+    } else {
+        status = nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu columns", axis->size);
+    }
+    free(active);
+    free(greville);
+    return status;
+}
+
 /* Interpolates together the neighbouring columns first ... last - 1, which break alike. */
-static nurbs_status solve_columns(const kinked_axis *axis, const skin *work, size_t first,
-                                  size_t last, double *points)
+static nurbs_status solve_columns(const kinked_axis *axis, const skin *work, size_t across,
+                                  size_t first, size_t last, double *points)
 {
     size_t m = 3 * (last - first), rows = work->rows;
     double *data = malloc((rows + axis->size) * m * sizeof *data);
@@ -125,51 +202,52 @@ static nurbs_status solve_columns(const kinked_axis *axis, const skin *work, siz
     nurbs_status status =
         kinked_axis_solve(axis, work->active + first * work->kinks, m, data, control);
     for (size_t i = 0; i < axis->size && status == NURBS_OK; i++)
-        memcpy(points + 3 * (i * work->columns + first), control + i * m, m * sizeof(double));
+        memcpy(points + 3 * (i * across + first), control + i * m, m * sizeof(double));
     free(data);
     return status;
 }
 
-static nurbs_status solve_net(const kinked_axis *axis, const skin *work, double *points)
+static nurbs_status solve_net(const kinked_axis *axis, const skin *work, size_t across,
+                              double *points)
 {
     nurbs_status status = NURBS_OK;
-    for (size_t first = 0, last; first < work->columns && status == NURBS_OK; first = last) {
-        for (last = first + 1; last < work->columns; last++)
+    for (size_t first = 0, last; first < across && status == NURBS_OK; first = last) {
+        for (last = first + 1; last < across; last++)
             if (memcmp(work->active + first * work->kinks, work->active + last * work->kinks,
                        work->kinks) != 0)
                 break;
-        status = solve_columns(axis, work, first, last, points);
+        status = solve_columns(axis, work, across, first, last, points);
     }
     return status;
 }
 
 static nurbs_status build_surface(int degree, skin *work, nurbs_surface **surface)
 {
-    kinked_axis axis;
-    size_t order = (size_t)degree + 1;
-    double *knots_v = malloc((work->columns + order) * sizeof *knots_v), *points = NULL;
-    if (!knots_v)
-        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu knots", work->columns + order);
-    interpolation_knots(degree, work->columns, work->v, knots_v);
+    kinked_axis along = {0}, across = {0};
+    double *points = NULL;
     nurbs_status status =
-        kinked_axis_create(degree, work->rows, work->u, work->kinks, work->kink, &axis);
+        kinked_axis_create(degree, work->columns, work->v, work->chines, work->chine, &across);
+    if (status == NURBS_OK)
+        status = kinked_axis_create(degree, work->rows, work->u, work->kinks, work->kink, &along);
     if (status == NURBS_OK) {
-        points = malloc(3 * axis.size * work->columns * sizeof *points);
-        if (!points)
+        points = malloc(3 * along.size * across.size * sizeof *points);
+        work->net = malloc(3 * work->rows * across.size * sizeof *points);
+        if (!points || !work->net)
             status = nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu x %zu control points",
-                                axis.size, work->columns);
-        if (status == NURBS_OK)
-            status = section_curves(degree, knots_v, work);
-        if (status == NURBS_OK)
-            status = solve_net(&axis, work, points);
-        if (status == NURBS_OK)
-            status =
-                nurbs_surface_create((int[]){degree, degree}, (size_t[]){axis.size, work->columns},
-                                     axis.knots, knots_v, points, NULL, surface);
-        kinked_axis_free(&axis);
+                                along.size, across.size);
     }
+    if (status == NURBS_OK)
+        status = section_curves(&across, work);
+    if (status == NURBS_OK)
+        status = spread_active(&across, work);
+    if (status == NURBS_OK)
+        status = solve_net(&along, work, across.size, points);
+    if (status == NURBS_OK)
+        status = nurbs_surface_create((int[]){degree, degree}, (size_t[]){along.size, across.size},
+                                      along.knots, across.knots, points, NULL, surface);
+    kinked_axis_free(&along);
+    kinked_axis_free(&across);
     free(points);
-    free(knots_v);
     return status;
 }
 
@@ -207,12 +285,13 @@ nurbs_status nurbs_skin(const nurbs_grid *grid, const nurbs_skin_options *option
     options = options ? options : &defaults;
     nurbs_status status = check_request(grid, options);
     if (status == NURBS_OK)
-        status = skin_reserve(grid, &work);
+        status = skin_reserve(grid, options, &work);
     if (status != NURBS_OK)
         return status;
     status = parameters(options, &work);
     if (status == NURBS_OK) {
         find_kinks(options->kink_angle, &work);
+        find_broken(options->kink_angle, &work);
         status = build_surface(options->degree, &work, surface);
     }
     skin_release(&work);

@@ -169,7 +169,7 @@ static void questions(void)
                     NULL);
         }
     uv[0] = uv[1] = 0.5;
-    REFUSED(nurbs_surface_eval(surface, 3, 1, uv, out), NULL);
+    REFUSED(nurbs_surface_eval(surface, 51, 1, uv, out), NULL);
     REFUSED(nurbs_surface_eval(surface, -1, 1, uv, out), NULL);
     REFUSED(nurbs_curve_eval(curve, -1, 1, uv, out), NULL);
     REFUSED(nurbs_curve_eval(curve, 51, 1, uv, out), NULL);

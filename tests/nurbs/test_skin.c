@@ -282,7 +282,158 @@ static void rounding_does_not_double_knots(void)
         nurbs_curve_free(sections[k]);
 }
 
+/* A hard-chine hull: straight bottom from the keel to the chine (column CHINE), a straight side
+ * above. Forward of half its length the chine fades into a round section. */
+enum { HARD_ROWS = 21, HARD_COLUMNS = 13, CHINE = 7 };
+
+static nurbs_grid *hard_chine_grid(int fades)
+{
+    nurbs_grid *grid;
+    if (nurbs_grid_create(HARD_ROWS, HARD_COLUMNS, NULL, &grid) != NURBS_OK)
+        return NULL;
+    for (size_t i = 0; i < HARD_ROWS; i++)
+        for (size_t j = 0; j < HARD_COLUMNS; j++) {
+            double *p = nurbs_grid_edit(grid) + 3 * (i * HARD_COLUMNS + j);
+            const double x = (double)i / (HARD_ROWS - 1);
+            const double side = (double)j / CHINE;
+            const double bottom = ((double)j - CHINE) / (HARD_COLUMNS - 1 - CHINE);
+            const double hard[2] = {j <= CHINE ? 1.2 - 0.2 * side : 1.0 - bottom,
+                                    j <= CHINE ? 0.8 - side : -0.2 - 0.3 * bottom};
+            const double angle = 1.5707963267948966 * (double)j / (HARD_COLUMNS - 1);
+            const double around[2] = {1.2 * cos(angle), 0.8 - 1.3 * sin(angle)};
+            const double share = fades && x > 0.5 ? fmin(1.0, 4.0 * (x - 0.5)) : 0.0;
+            p[0] = 10.0 * x;
+            for (size_t c = 0; c < 2; c++)
+                p[1 + c] = (1.0 - share) * hard[c] + share * around[c];
+            if (j == HARD_COLUMNS - 1)
+                p[1] = 0.0;
+        }
+    return grid;
+}
+
+/* Angle between the one-sided tangents in v. */
+static double girth_jump(const nurbs_surface *surface, double u, double v)
+{
+    const double uv[2] = {u, v};
+    double left[9], right[9], dot = 0, nl = 0, nr = 0;
+    CU_ASSERT_EQUAL(nurbs_surface_eval_sided(surface, 1, 2, 1, uv, left), NURBS_OK);
+    CU_ASSERT_EQUAL(nurbs_surface_eval_sided(surface, 1, 0, 1, uv, right), NURBS_OK);
+    for (int c = 6; c < 9; c++) {
+        dot += left[c] * right[c];
+        nl += left[c] * left[c];
+        nr += right[c] * right[c];
+    }
+    return acos(fmin(1, dot / sqrt(nl * nr)));
+}
+
+/* With its chine named a prismatic hull is its two flat panels, and without it is not. */
+static void chine_of_a_prism(void)
+{
+    const size_t chine = CHINE;
+    nurbs_grid *grid = hard_chine_grid(0);
+    CU_ASSERT_PTR_NOT_NULL_FATAL(grid);
+    double u[HARD_ROWS], v[HARD_COLUMNS];
+    for (int named = 0; named < 2; named++) {
+        nurbs_skin_options options;
+        nurbs_surface *surface;
+        nurbs_skin_options_init(&options);
+        options.parametrize = NURBS_CHORD;
+        options.chine_count = (size_t)named;
+        options.chine = &chine;
+        CU_ASSERT_EQUAL_FATAL(nurbs_skin(grid, &options, &surface), NURBS_OK);
+        CU_ASSERT_EQUAL(nurbs_skin_parameters(grid, &options, u, v), NURBS_OK);
+        CHECK_CLOSE(through_points(surface, grid, &options), 0, 1e-12);
+        double worst = 0;
+        for (int k = 0; k <= 400; k++) {
+            const double uv[2] = {0.37, k / 400.0};
+            double p[3];
+            CU_ASSERT_EQUAL(nurbs_surface_eval(surface, 0, 1, uv, p), NURBS_OK);
+            const double on = p[2] > -0.2 ? p[1] - (1.0 + 0.2 * (p[2] + 0.2)) /* side */
+                                          : p[2] - (-0.5 + 0.3 * p[1]);       /* bottom */
+            worst = fmax(worst, fabs(on));
+        }
+        if (named) {
+            CU_ASSERT_EQUAL(nurbs_surface_size(surface, 1), HARD_COLUMNS + 2);
+            CU_ASSERT(worst < 1e-12);
+            CHECK_CLOSE(girth_jump(surface, 0.37, v[CHINE]), atan2(1.0, 0.2) - atan2(0.3, 1.0),
+                        1e-10);
+        } else {
+            CU_ASSERT(worst > 1e-3);
+        }
+        nurbs_surface_free(surface);
+    }
+    nurbs_grid_free(grid);
+}
+
+/* The kink stays as far as the sections turn, and simplification keeps it. */
+static void chine_that_fades(void)
+{
+    const size_t chine = CHINE;
+    nurbs_grid *grid = hard_chine_grid(1);
+    CU_ASSERT_PTR_NOT_NULL_FATAL(grid);
+    double u[HARD_ROWS], v[HARD_COLUMNS], bound;
+    nurbs_skin_options options;
+    nurbs_surface *surface, *light;
+    nurbs_skin_options_init(&options);
+    options.chine_count = 1;
+    options.chine = &chine;
+    CU_ASSERT_EQUAL_FATAL(nurbs_skin(grid, &options, &surface), NURBS_OK);
+    CU_ASSERT_EQUAL(nurbs_skin_parameters(grid, &options, u, v), NURBS_OK);
+    CHECK_CLOSE(through_points(surface, grid, &options), 0, 1e-12);
+    const double turn = atan2(1.0, 0.2) - atan2(0.3, 1.0);
+    for (size_t i = 0; i <= 8; i++)
+        CHECK_CLOSE(girth_jump(surface, u[i], v[CHINE]), turn, 0.1);
+    for (size_t i = 16; i < HARD_ROWS; i++)
+        CU_ASSERT(girth_jump(surface, u[i], v[CHINE]) < 1e-6);
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_simplify(surface, 1e-3, NURBS_KEEP_KINKS, &light, &bound),
+                          NURBS_OK);
+    CU_ASSERT(bound <= 1e-3);
+    CHECK_CLOSE(girth_jump(light, 0.2, v[CHINE]), turn, 0.15);
+    nurbs_surface_free(light);
+    nurbs_surface_free(surface);
+
+    const size_t bad[2] = {CHINE, CHINE};
+    options.chine = bad;
+    options.chine_count = 2;
+    CU_ASSERT_EQUAL(nurbs_skin(grid, &options, &surface), NURBS_ERROR_ARGUMENT);
+    CU_ASSERT_PTR_NULL(surface);
+    options.chine = NULL;
+    CU_ASSERT_EQUAL(nurbs_skin(grid, &options, &surface), NURBS_ERROR_ARGUMENT);
+    nurbs_grid_free(grid);
+}
+
+/* Sections given as curves with a corner of their own: the union keeps it. */
+static void chine_of_section_curves(void)
+{
+    enum { SECTIONS = 5 };
+    nurbs_curve *sections[SECTIONS];
+    nurbs_surface *surface;
+    for (size_t i = 0; i < SECTIONS; i++) {
+        const double knots[11] = {0, 0, 0, 0, 0.4, 0.4, 0.4, 1, 1, 1, 1};
+        double p[21];
+        for (int k = 0; k < 7; k++) {
+            const double side = k / 3.0, bottom = (k - 3) / 3.0, f = 1.0 + 0.1 * (double)i;
+            p[3 * k] = 2.0 * (double)i;
+            p[3 * k + 1] = f * (k <= 3 ? 1.2 - 0.2 * side : 1.0 - bottom);
+            p[3 * k + 2] = k <= 3 ? 0.8 - side : -0.2 - 0.3 * bottom;
+        }
+        CU_ASSERT_EQUAL_FATAL(nurbs_curve_create(3, 7, knots, p, NULL, &sections[i]), NURBS_OK);
+    }
+    CU_ASSERT_EQUAL_FATAL(
+        nurbs_skin_curves(SECTIONS, (const nurbs_curve *const *)sections, NULL, 3, 0, &surface),
+        NURBS_OK);
+    CHECK_CLOSE(girth_jump(surface, 0, 0.4), atan2(1.0, 0.2) - atan2(0.3, 1.0), 1e-12);
+    CHECK_CLOSE(girth_jump(surface, 0.3, 0.7), 0, 1e-7);
+    CU_ASSERT(girth_jump(surface, 0.61, 0.4) > 1.0);
+    nurbs_surface_free(surface);
+    for (size_t i = 0; i < SECTIONS; i++)
+        nurbs_curve_free(sections[i]);
+}
+
 static const struct check_case cases[] = {
+    {"chine of a prism", chine_of_a_prism},
+    {"chine that fades", chine_that_fades},
+    {"chine of section curves", chine_of_section_curves},
     {"passes through every point", passes_through_every_point},
     {"keeps the kink only where it is", keeps_the_kink_only_where_it_is},
     {"keel does not overshoot", keel_does_not_overshoot},

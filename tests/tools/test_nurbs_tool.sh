@@ -129,6 +129,10 @@ expect 0 "$nurbs" grid "$hulls/dtmb5415.json" --rows 90 --columns 25 -o grid.csv
 [ "$(wc -l <grid.csv)" -eq 2251 ] || fail "2250 points"
 expect 0 "$nurbs" skin grid.csv -o skin.json --json
 awk -v d="$(number deviation)" 'BEGIN { exit !(d < 1e-13) }' || fail "skin misses points"
+expect 0 "$nurbs" skin grid.csv -o chine.json --chine 12 --kink-angle 5 --json
+awk -v d="$(number deviation)" 'BEGIN { exit !(d < 1e-13) }' || fail "skin with a chine misses points"
+expect 2 "$nurbs" skin grid.csv -o chine.json --chine 12,x
+expect 1 "$nurbs" skin grid.csv -o chine.json --chine 25
 expect 0 "$nurbs" grid skin.json -o back.csv
 paste -d, grid.csv back.csv | awk -F, 'NR > 1 { for (k = 3; k <= 5; k++) { d = $k - $(k + 5);
     if (d > 1e-12 || d < -1e-12) bad++ } } END { exit bad > 0 || NR != 2251 }' || fail "grid of the skin"

@@ -8,6 +8,7 @@
  * file where the points are. */
 struct request {
     nurbs_skin_options skin;
+    size_t chine[16];
     double tolerance, length;
     const char *note, *output;
     bool json;
@@ -31,14 +32,33 @@ static int parametrization_option(const char *text, nurbs_parametrization *kind)
     return cli_usage("--parametrize '%s': expected uniform, chord, centripetal or foley", text);
 }
 
+/* Columns from 1, as in the grid file, separated by commas. */
+static int chine_option(const char *text, struct request *request)
+{
+    const size_t most = sizeof request->chine / sizeof request->chine[0];
+    size_t count = 0;
+    for (const char *at = text; at; count++) {
+        char *end;
+        const long column = strtol(at, &end, 10);
+        if (end == at || column < 2 || column > 1000000 || (*end && *end != ',') || count == most)
+            return cli_usage("--chine '%s': expected up to %zu columns like 7 or 7,12", text, most);
+        request->chine[count] = (size_t)column - 1;
+        at = *end ? end + 1 : NULL;
+    }
+    request->skin.chine = request->chine;
+    request->skin.chine_count = count;
+    return CLI_OK;
+}
+
 static int parse(int argc, char **argv, struct request *request)
 {
     size_t degree = (size_t)request->skin.degree;
     double degrees = request->skin.kink_angle * 180 / 3.14159265358979323846;
-    const char *kind = NULL;
+    const char *kind = NULL, *chine = NULL;
     const tool_option options[] = {{"degree", OPTION_COUNT, &degree, 1, 5},
                                    {"parametrize", OPTION_TEXT, &kind, 0, 0},
                                    {"kink-angle", OPTION_NUMBER, &degrees, 0, 0},
+                                   {"chine", OPTION_TEXT, &chine, 0, 0},
                                    {"tolerance", OPTION_LENGTH, &request->tolerance, 0, 0},
                                    {"lpp", OPTION_LENGTH, &request->length, 0, 0},
                                    {"note", OPTION_TEXT, &request->note, 0, 0},
@@ -47,6 +67,8 @@ static int parse(int argc, char **argv, struct request *request)
     int code = parse_options(argc, argv, OPTION_COUNT_OF(options), options, grid, &request->json);
     if (code == CLI_OK && kind)
         code = parametrization_option(kind, &request->skin.parametrize);
+    if (code == CLI_OK && chine)
+        code = chine_option(chine, request);
     request->skin.degree = (int)degree;
     request->skin.kink_angle = degrees * 3.14159265358979323846 / 180;
     return code;
@@ -170,6 +192,8 @@ static int run_fit(int argc, char **argv)
     "  --parametrize uniform|chord|centripetal|foley   (centripetal)\n"                            \
     "  --kink-angle A degrees an edge line may turn at a station before it is kept as a\n"         \
     "                 kink (20; 0: no kinks)\n"                                                    \
+    "  --chine J,...  columns that are chines: sections that turn there by more than the\n"        \
+    "                 kink angle keep the corner\n"                                                \
     "  --lpp L        length between perpendiculars, kept in the file\n"                           \
     "  --note TEXT    provenance, kept in the file\n"                                              \
     "  -o, --output FILE\n"

@@ -45,10 +45,14 @@ NURBS_API nurbs_status nurbs_curve_fit(int degree, size_t size, const double *kn
 typedef struct nurbs_skin_options {
     int degree; /**< both directions, 1 to 5; 3 */
     nurbs_parametrization
-        parametrize;   /**< averaged over rows, respectively columns; NURBS_CENTRIPETAL */
-    double kink_angle; /**< radians: a longitudinal edge line turning by more than this at a
-                            station gets a knot of multiplicity `degree` there so that the
-                            kink stays; 20 degrees; <= 0: none */
+        parametrize;     /**< averaged over rows, respectively columns; NURBS_CENTRIPETAL */
+    double kink_angle;   /**< radians: a longitudinal edge line turning by more than this at a
+                              station gets a knot of multiplicity `degree` there so that the
+                              kink stays; 20 degrees; <= 0: none */
+    size_t chine_count;  /**< columns that are chines: 0 */
+    const size_t *chine; /**< borrowed: their indices from 0, increasing, not the first or last
+                              column; sections that turn there by more than kink_angle (by anything
+                              if that is <= 0) keep the kink, others pass smoothly; NULL */
 } nurbs_skin_options;
 
 NURBS_API void nurbs_skin_options_init(nurbs_skin_options *options);
