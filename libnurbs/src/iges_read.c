@@ -128,6 +128,9 @@ static nurbs_status inspect_face(iges_file *file, size_t entity, face_work *work
                     "face D%zu has no curves in parameter space: the whole surface D%zu is "
                     "kept; ",
                     number, iges_number(surface));
+    if (file->entity[entity].transformation > 0)
+        iges_report(file, "face D%zu has a transformation of its own, which is not applied; ",
+                    number);
     work->trimmed[surface] |= face.trim == IGES_TRIMMED;
     work->whole[surface] |= face.trim != IGES_TRIMMED;
     if (face.trim == IGES_TRIMMED && work->tolerance > 0) {

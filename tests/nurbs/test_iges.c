@@ -236,6 +236,33 @@ static void untrims_faces_of_four_sides(void)
     nurbs_surface_free(expected);
 }
 
+static char *read_text(const char *path, size_t *length)
+{
+    FILE *stream = fopen(path, "rb");
+    char *text = calloc(1, 20000);
+    if (stream && text)
+        *length = fread(text, 1, 19999, stream);
+    if (stream)
+        fclose(stream);
+    return text;
+}
+
+/* Columns 49 to 56 of the face's directory line. */
+static void tells_transformations_of_faces(void)
+{
+    size_t length = 0;
+    char *text = read_text(DATA("trimmed"), &length), *line = strstr(text, "     144"),
+         report[1000];
+    CU_ASSERT_PTR_NOT_NULL_FATAL(line);
+    memcpy(line + 48, "       3", 8);
+    const char *path = write_scratch("moved_face.igs", text);
+    nurbs_patches *patches = read_file(path, report);
+    CU_ASSERT_PTR_NOT_NULL(strstr(report, "face D1 has a transformation of its own"));
+    nurbs_patches_free(patches);
+    unlink(path);
+    free(text);
+}
+
 /* A quarter of a cylinder of radius 2 m and length 5 m, written by Open CASCADE in millimetres. */
 static void reads_rational_surfaces_of_open_cascade(void)
 {
@@ -277,17 +304,6 @@ static void written_records_are_well_formed(void)
     fclose(stream);
     unlink(path);
     nurbs_surface_free(patch);
-}
-
-static char *read_text(const char *path, size_t *length)
-{
-    FILE *stream = fopen(path, "rb");
-    char *text = calloc(1, 20000);
-    if (stream && text)
-        *length = fread(text, 1, 19999, stream);
-    if (stream)
-        fclose(stream);
-    return text;
 }
 
 static void refuses_damaged_files(void)
@@ -436,6 +452,7 @@ static const struct check_case cases[] = {
     {"writing and reading restores every bit", writing_and_reading_restores_every_bit},
     {"written records are well formed", written_records_are_well_formed},
     {"reads rational surfaces of open cascade", reads_rational_surfaces_of_open_cascade},
+    {"tells transformations of faces", tells_transformations_of_faces},
     {"untrims faces of four sides", untrims_faces_of_four_sides},
     {"reads curves", reads_curves},
     {"refuses damaged files", refuses_damaged_files},
