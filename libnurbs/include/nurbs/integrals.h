@@ -63,8 +63,8 @@ NURBS_API nurbs_status nurbs_surface_moments(const nurbs_surface *surface, nurbs
 
 /** Sums over all patches. Quadrature is repeated with twice as many points until the two agree to
  * 1e-12 or the patch has 2e6 points (about a second).
- * @param error  fills an estimate of the absolute error of every quantity: the sum over the patches of
- *               what the last two changes leave to expect, and rounding; NULL allowed */
+ * @param error  fills an estimate of the absolute error of every quantity: the sum over the patches
+ * of what the last two changes leave to expect, and rounding; NULL allowed */
 NURBS_API nurbs_status nurbs_patches_moments(const nurbs_patches *patches, nurbs_moments *moments,
                                              nurbs_moments *error);
 
