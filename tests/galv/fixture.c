@@ -78,7 +78,8 @@ double *fixture_spectrum(size_t count, size_t length, const double *rows, bool c
 {
     size_t least = count < length ? count : length;
     double *copy = malloc(count * length * sizeof *copy), *values = malloc(least * sizeof *values);
-    double *u = malloc(least * length * sizeof *u), *vt = malloc(least * count * sizeof *vt);
+    double *u = modes ? malloc(least * length * sizeof *u) : NULL;
+    double *vt = modes ? malloc(least * count * sizeof *vt) : NULL;
     memcpy(copy, rows, count * length * sizeof *copy);
     if (centre)
         centre_columns(count, length, copy);
@@ -86,9 +87,9 @@ double *fixture_spectrum(size_t count, size_t length, const double *rows, bool c
         for (size_t r = 0; r < count; r++)
             copy[r * length + i] *= sqrt(weights[i]);
     /* Row-major rows are the columns of a length x count matrix: its left vectors are the modes. */
-    lapack_int info =
-        LAPACKE_dgesdd(LAPACK_COL_MAJOR, 'S', (lapack_int)length, (lapack_int)count, copy,
-                       (lapack_int)length, values, u, (lapack_int)length, vt, (lapack_int)least);
+    lapack_int info = LAPACKE_dgesdd(LAPACK_COL_MAJOR, modes ? 'S' : 'N', (lapack_int)length,
+                                     (lapack_int)count, copy, (lapack_int)length, values, u,
+                                     (lapack_int)length, vt, (lapack_int)least);
     for (size_t k = 0; k < least; k++)
         values[k] = info ? NAN : values[k] * values[k] / (double)count;
     if (modes)

@@ -44,6 +44,45 @@ static void test_one_sample(void)
     galv_shape_free(shape);
 }
 
+/* Fewer samples than coordinates, and data of any rank up to N: every method finds that rank, the
+ * spectrum of a dense SVD and all of the variance. */
+static void test_few_samples_of_any_rank(void)
+{
+    enum { COUNT = 40, LENGTH = 300 };
+    static double rows[COUNT * LENGTH];
+    const size_t ranks[] = {1, 7, COUNT - 1, COUNT};
+    const double lower = -1, upper = 1;
+    galv_options options;
+    galv_options_init(&options);
+    options.variance = 1;
+    for (int i = 0; i < 4; i++) {
+        memset(rows, 0, sizeof rows);
+        for (size_t k = 0; k < ranks[i]; k++)
+            for (size_t r = 0; r < COUNT; r++)
+                for (size_t c = 0; c < LENGTH; c++) {
+                    double left, right;
+                    galv_uniform_sample(5, k * COUNT + r, 1, &lower, &upper, &left);
+                    galv_uniform_sample(6, k * LENGTH + c, 1, &lower, &upper, &right);
+                    rows[r * LENGTH + c] += left * right;
+                }
+        double *values = fixture_spectrum(COUNT, LENGTH, rows, false, NULL, 0, NULL);
+        galv_data data = {.count = COUNT, .coordinates = LENGTH, .values = rows};
+        for (int method = GALV_METHOD_AUTO; method <= GALV_METHOD_RANDOMISED; method++) {
+            galv_model *model = NULL;
+            options.method = (galv_method)method;
+            CU_ASSERT_EQUAL_FATAL(galv_build_data(&data, &options, &model), GALV_OK);
+            CU_ASSERT_EQUAL(galv_model_method(model), method ? options.method : GALV_METHOD_GRAM);
+            CU_ASSERT_EQUAL_FATAL(galv_model_spectrum(model), ranks[i]);
+            CU_ASSERT_EQUAL(galv_model_modes(model), ranks[i]);
+            CHECK_CLOSE(galv_model_retained(model), 1, 1e-12);
+            for (size_t k = 0; k < ranks[i]; k++)
+                CHECK_CLOSE(galv_model_eigenvalues(model)[k], values[k], 1e-11 * values[0]);
+            galv_model_free(model);
+        }
+        free(values);
+    }
+}
+
 /* The same five samples over and over: rank 5, all of the variance in 5 modes. */
 static void test_duplicates(void)
 {
@@ -270,6 +309,7 @@ static void test_uniform_stream(void)
 
 static const struct check_case cases[] = {
     {"one sample", test_one_sample},
+    {"fewer samples than coordinates, any rank", test_few_samples_of_any_rank},
     {"duplicate samples", test_duplicates},
     {"constant coordinates", test_constant_coordinates},
     {"the sample that is not finite is named", test_bad_sample_is_named},

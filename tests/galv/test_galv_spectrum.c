@@ -185,11 +185,12 @@ static void test_linear_equals_closed_form(void)
  * eigenvalues, which the variance target 1 makes the library use. */
 static void test_iteration_equals_full_decomposition(void)
 {
-    enum { FINE = 60 * 15, COUNT = 1200 };
+    enum { ALONG = 45, AROUND = 15, FINE = ALONG * AROUND, COUNT = 700 };
     static double xyz[3 * FINE];
-    for (size_t i = 0; i < 60; i++)
-        for (size_t j = 0; j < 15; j++) {
-            double s = (double)i / 59, t = (double)j / 14, *p = xyz + 3 * (i * 15 + j);
+    for (size_t i = 0; i < ALONG; i++)
+        for (size_t j = 0; j < AROUND; j++) {
+            double s = (double)i / (ALONG - 1), t = (double)j / (AROUND - 1);
+            double *p = xyz + 3 * (i * AROUND + j);
             p[0] = 6 * s;
             p[1] = 0.4 * (0.1 + 3 * s * (1 - s)) * (1 - t * t);
             p[2] = -0.3 * t;
@@ -261,7 +262,7 @@ static int late(void *context, size_t npoints, const double *xyz, const double *
 
 static void test_late_coordinates(void)
 {
-    enum { COUNT = 700, LATE = 200 };
+    enum { COUNT = 600, LATE = 100 };
     double lower = 0, upper = COUNT, x[COUNT];
     static double xyz[3 * LATE];
     for (int r = 0; r < COUNT; r++)

@@ -263,6 +263,7 @@ static void test_drawings(void)
     json_decref(run_json(reduce));
     expect("plot model.h5 -o plot.svg --modes 2", 0, NULL);
     expect_svg("plot.svg", "mode 2");
+    expect_svg("plot.svg", " m where u2 = ");
     expect("animate model.h5 -o strip.svg --modes 2 --frames 3 --scale 2", 0, NULL);
     expect_svg("strip.svg", "<animate");
     expect("plot model.h5", 2, "-o");

@@ -14,7 +14,8 @@ static const char help[] =
     "\n"
     "Draws the retained variance and the mean squared error over the number of modes, and the "
     "first K\n"
-    "modes (default 3) on the hull: blue where points stay, yellow where they move most.\n";
+    "modes (default 3) on the hull: blue where points stay, yellow where they move most;\n"
+    "the bar gives how far at the root mean square of the latent coordinate.\n";
 
 enum { WIDTH = 960, CHART = 250, HULL = 230 };
 
@@ -51,14 +52,20 @@ static int draw_mode(FILE *out, const struct model_file *file, size_t k, double 
     const galv_model *model = file->model;
     size_t points = galv_model_points(model);
     const double *mode = galv_model_vectors(model) + k * galv_model_coordinates(model);
+    double spread = sqrt(galv_model_eigenvalues(model)[k]), largest = 0;
     double *size = malloc(points * sizeof *size);
     if (!size)
         return -1;
-    for (size_t p = 0; p < points; p++)
-        size[p] = hypot(hypot(mode[3 * p], mode[3 * p + 1]), mode[3 * p + 2]);
-    svg_text(out, 30, top + 16, 14, SVG_START,
-             "mode %zu, %.2f %% of the variance (blue: points stay, yellow: move most)", k + 1,
+    for (size_t p = 0; p < points; p++) {
+        size[p] = spread * hypot(hypot(mode[3 * p], mode[3 * p + 1]), mode[3 * p + 2]);
+        largest = fmax(largest, size[p]);
+    }
+    svg_text(out, 30, top + 16, 14, SVG_START, "mode %zu, %.2f %% of the variance", k + 1,
              100 * galv_model_eigenvalues(model)[k] / galv_model_trace(model));
+    svg_text(out, WIDTH - 410, top + 16, 11, SVG_END, "points move by 0");
+    svg_colour_bar(out, WIDTH - 400, top + 5, 160, 14);
+    svg_text(out, WIDTH - 230, top + 16, 11, SVG_START, "%.3g m where u%zu = %.3g m", largest,
+             k + 1, spread);
     struct view view = {.x = 30,
                         .y = top + 24,
                         .width = WIDTH - 60,

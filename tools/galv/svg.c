@@ -65,6 +65,19 @@ void svg_colour(double t, char text[8])
     snprintf(text, 8, "#%02x%02x%02x", c[0], c[1], c[2]);
 }
 
+void svg_colour_bar(FILE *out, double x, double y, double width, double height)
+{
+    enum { STEPS = 64 };
+    char colour[8];
+    fputs("<g shape-rendering=\"crispEdges\">\n", out);
+    for (int k = 0; k < STEPS; k++) {
+        svg_colour((k + 0.5) / STEPS, colour);
+        fprintf(out, "<rect x=\"%.2f\" y=\"%.1f\" width=\"%.2f\" height=\"%.1f\" fill=\"%s\"/>\n",
+                x + width * k / STEPS, y, width / STEPS, height, colour);
+    }
+    fputs("</g>\n", out);
+}
+
 /* 1, 2 or 5 times a power of ten, about a fifth of the range. */
 static double tick_step(double range)
 {

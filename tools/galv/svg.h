@@ -18,6 +18,8 @@ void svg_polyline(FILE *out, size_t n, const double *xy, const char *stroke, dou
 
 /* A colour between dark blue (0) and yellow (1), as "#rrggbb". */
 void svg_colour(double t, char text[8]);
+/* All of these colours from left to right. */
+void svg_colour_bar(FILE *out, double x, double y, double width, double height);
 
 /* A frame with ticks and the points (k, y[k]), k = 1..n, joined and marked. logarithmic: y on a log
  * scale, points <= 0 left out. mark: 1-based index of the point to single out, 0 for none. */
