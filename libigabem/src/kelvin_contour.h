@@ -1,18 +1,23 @@
 /* The contour integral of the wave part W behind the source, x = -X > 0, y = |Y|, z = -Z >= 0:
  *
- *     W = 4 Im Int e^{f(v)} cosh v dv,   f = -z C^2 + i C (-x + y S),   C = cosh v, S = sinh v,
+ *     W = 4 Im Int e^{f(v)} cosh v dv,   f = -z C^2 + i C (-x + y S),   C = cosh v, S = sinh v.
  *
- * by the trapezoid rule in u on the explicit contour v = u + i tau(u),
+ * With w = sinh(v/2), C = 1 + 2 w^2, S = 2 w s and dv = 2 dw/s, s = sqrt(1 + w^2). In w the
+ * transverse waves are -i x 2 w^2 next to w = 0 and the diverging ones have the same width next to
+ * w = sqrt(x/4y). The trapezoid rule in p on the explicit contour
  *
- *     tau = atan2(a, b)/2,  a = y cosh 2u - x sinh u,
- *     b = z cosh 2u + sqrt(x^2/cosh^2 u + y^2 cosh^2 2u + 1)/2.
+ *     w = q + i kappa,   q = q(p) real,   kappa = (y (1 + 8 q^2 r) - 2 x q)/D,   r = sqrt(1 + q^2),
+ *     D = 2.9 x + 7.6 z + 2.6 y + (13.3 y + 16.8 z) q^2 + 1.5/r^2.
  *
- * f is entire, so any such contour that ends in the valleys will do. a vanishes at the stationary
- * points of the phase x sinh - y sinh 2u/2 at z = 0, where the contour crosses the real axis at
- * -+45 degrees as the path of steepest descent does; b keeps it smooth where they merge (the cusp
- * x^2 = 8 y^2), leave the real axis (outside the wedge) or go to infinity (the track y = 0). With
- * the flat short-wave filter the exponent gains -e^2 C^4, e = 1/(1 + t_c^2), and b gains
- * 2 e^2 cosh^2 2u, which brings the ends of the contour back to the real axis. */
+ * f is entire in v, so any such contour that ends in the valleys will do; the numbers of D are
+ * those that needed the fewest nodes among points behind a hull. The numerator vanishes next to the
+ * stationary points of the phase at z = 0, where the contour crosses the real axis at about -+40
+ * degrees, near the path of steepest descent; D > 0 keeps it smooth where they merge (the cusp x^2
+ * = 8 y^2), leave the real axis (outside the wedge) or go to infinity (the track y = 0). With the
+ * flat short-wave filter the exponent gains -e^2 C^4, e = 1/(1 + t_c^2), and z becomes z + 2 e^2 (1
+ * + 8 q^2 + 8 q^4) in D, which brings the ends of the contour back to the real axis.
+ *
+ * q = p, or q = sinh p where the contour is long: near the source only e^{-(y+z) 4 q^4} ends it. */
 #ifndef IGABEM_KELVIN_CONTOUR_H
 #define IGABEM_KELVIN_CONTOUR_H
 
@@ -31,64 +36,84 @@ struct kelvin_complex {
     kelvin_vec re, im;
 };
 
-/* Eight nodes: C, S, C^2, C S, the exponent f, dtau/du. */
+/* Eight nodes: w = q + i kappa, r, dw/dq = 1 + i slope, E = 1 + w^2 and 1/|E|, C, S, C^2, C S, the
+ * exponent f, dv/dq. */
 struct kelvin_nodes {
-    struct kelvin_complex C, S, C2, CS, f;
-    kelvin_vec slope;
+    kelvin_vec q, r, kappa, slope, inverse;
+    struct kelvin_complex E, C, S, C2, CS, f, dv;
 };
 
-/* e = e^u and g = e^-u at the nodes. */
-KELVIN_INLINE void kelvin_place_nodes(const struct kelvin_wave_points *p, const kelvin_vec *e,
-                                      const kelvin_vec *g, enum kelvin_kind kind,
-                                      enum kelvin_precision precision, struct kelvin_nodes *nodes)
+KELVIN_INLINE void kelvin_multiply(const struct kelvin_complex *a, const struct kelvin_complex *b,
+                                   struct kelvin_complex *product)
 {
-    kelvin_vec x = p->x, y = p->y, z = p->z;
-    kelvin_vec ch = 0.5 * (*e + *g), sh = 0.5 * (*e - *g), ch_sq = ch * ch;
-    kelvin_vec ch2 = 2 * ch_sq - 1, sh2 = 2 * sh * ch, ych2 = y * ch2;
-    /* A = a cosh u, B = b cosh u and their derivatives; root = sqrt(x^2 + cosh^2 u (y^2 cosh^2 2u +
-     * 1)). */
-    kelvin_vec a = ych2 - x * sh, A = a * ch;
-    kelvin_vec dA = (2 * y * sh2 - x * ch) * ch + a * sh;
-    kelvin_vec inner = ych2 * ych2 + 1, square = x * x + ch_sq * inner, rroot;
-    kelvin_vrsqrt_to(&square, precision, &rroot);
-    kelvin_vec B = z * ch2 * ch + 0.5 * square * rroot;
-    kelvin_vec dB = z * (2 * sh2 * ch + ch2 * sh) +
-                    0.5 * ch * rroot * (sh * inner + 2 * ch * (y * y) * ch2 * sh2);
+    kelvin_vec re = a->re * b->re - a->im * b->im, im = a->re * b->im + a->im * b->re;
+    product->re = re;
+    product->im = im;
+}
+
+/* kappa and its derivative with respect to q. */
+KELVIN_INLINE void kelvin_place_contour(const struct kelvin_wave_points *p, enum kelvin_kind kind,
+                                        enum kelvin_precision precision, struct kelvin_nodes *n)
+{
+    kelvin_vec q = n->q, x = p->x, y = p->y, z = p->z, square = q * q, r2 = 1 + square, rho;
+    kelvin_vrsqrt_to(&r2, precision, &rho);
+    kelvin_vec r = r2 * rho, y8q = 8 * (y * q);
+    kelvin_vec a = y + q * (y8q * r - 2 * x), da = y8q * (2 * r + square * rho) - 2 * x;
+    kelvin_vec outer = 13.3 * y + 16.8 * z, bump = 1.5 * (rho * rho);
+    kelvin_vec D = (2.9 * x + 7.6 * z + 2.6 * y) + outer * square + bump;
+    kelvin_vec dD = 2 * q * (outer - bump * (rho * rho));
     if (kind == KELVIN_FILTERED) {
-        B += 2 * p->e2 * ch2 * ch2 * ch;
-        dB += 2 * p->e2 * ch2 * (4 * sh2 * ch + ch2 * sh);
+        kelvin_vec extra = 2 * p->e2 * (1 + 8 * square * r2), weight = 7.6 + 16.8 * square;
+        D += weight * extra;
+        dD += q * (2 * 16.8 * extra + weight * (32 * p->e2) * (1 + 2 * square));
     }
-    kelvin_vec modulus = A * A + B * B, rmod, rcos;
-    kelvin_vrsqrt_to(&modulus, precision, &rmod);
-    nodes->slope = 0.5 * (dA * B - dB * A) * (rmod * rmod);
-    kelvin_vec cos2 = B * rmod, sin2 = A * rmod, cos_sq = 0.5 + 0.5 * cos2;
-    kelvin_vrsqrt_to(&cos_sq, precision, &rcos);
-    kelvin_vec cosine = cos_sq * rcos, sine = 0.5 * sin2 * rcos;
-    nodes->C.re = ch * cosine;
-    nodes->C.im = sh * sine;
-    nodes->S.re = sh * cosine;
-    nodes->S.im = ch * sine;
-    nodes->C2.re = 0.5 + 0.5 * ch2 * cos2;
-    nodes->C2.im = 0.5 * sh2 * sin2;
-    nodes->CS.re = 0.5 * sh2 * cos2;
-    nodes->CS.im = 0.5 * ch2 * sin2;
-    nodes->f.re = x * nodes->C.im - z * nodes->C2.re - y * nodes->CS.im;
-    nodes->f.im = y * nodes->CS.re - x * nodes->C.re - z * nodes->C2.im;
+    kelvin_vec inverse = 1 / D;
+    n->r = r;
+    n->kappa = a * inverse;
+    n->slope = (da - n->kappa * dD) * inverse;
+}
+
+/* Everything else at the nodes n->q. */
+KELVIN_INLINE void kelvin_place_nodes(const struct kelvin_wave_points *p, enum kelvin_kind kind,
+                                      enum kelvin_precision precision, struct kelvin_nodes *n)
+{
+    kelvin_place_contour(p, kind, precision, n);
+    kelvin_vec q = n->q, k = n->kappa, x = p->x, y = p->y, z = p->z, root;
+    struct kelvin_complex E = {1 + (q * q - k * k), 2 * q * k}, s;
+    kelvin_vec square = E.re * E.re + E.im * E.im;
+    kelvin_vrsqrt_to(&square, precision, &n->inverse);
+    kelvin_vec half = 0.5 * (square * n->inverse + E.re);
+    kelvin_vrsqrt_to(&half, precision, &root);
+    s.re = half * root;
+    s.im = 0.5 * E.im * root;
+    n->E = E;
+    n->C.re = 2 * E.re - 1;
+    n->C.im = 2 * E.im;
+    n->S.re = 2 * (q * s.re - k * s.im);
+    n->S.im = 2 * (q * s.im + k * s.re);
+    kelvin_vec twice = 2 * n->inverse;
+    n->dv.re = twice * (s.re + n->slope * s.im);
+    n->dv.im = twice * (n->slope * s.re - s.im);
+    n->C2.re = n->C.re * n->C.re - n->C.im * n->C.im;
+    n->C2.im = 2 * n->C.re * n->C.im;
+    kelvin_multiply(&n->C, &n->S, &n->CS);
+    n->f.re = x * n->C.im - z * n->C2.re - y * n->CS.im;
+    n->f.im = y * n->CS.re - x * n->C.re - z * n->C2.im;
     if (kind == KELVIN_FILTERED) {
-        nodes->f.re -= p->e2 * (nodes->C2.re * nodes->C2.re - nodes->C2.im * nodes->C2.im);
-        nodes->f.im -= 2 * p->e2 * nodes->C2.re * nodes->C2.im;
+        n->f.re -= p->e2 * (n->C2.re * n->C2.re - n->C2.im * n->C2.im);
+        n->f.im -= 2 * p->e2 * n->C2.re * n->C2.im;
     }
 }
 
-/* As functions of u, with v' = 1 + i slope: the frequency |Im f' v'| and the curvature |f'' v'^2|
- * of the exponent, f'  = -2z C S + i (-x S + y (2 C^2 - 1)) - 4 e2 C^2 C S, f'' = -2z (2 C^2 - 1) +
- * i (-x C + 4 y C S) - 4 e2 (4 C^4 - 3 C^2). */
+/* As functions of q: the frequency |Im f_q| and the curvature |f_qq| of the exponent, f_q = f' v_q,
+ * f_qq = v_q (f'' v_q - f' w w_q/(1 + w^2)), w_qq neglected, where f' = -2z C S + i (-x S + y (2
+ * C^2 - 1)) - 4 e2 C^2 C S, f'' = -2z (2 C^2 - 1) + i (-x C + 4 y C S) - 4 e2 (4 C^4 - 3 C^2). */
 KELVIN_INLINE void kelvin_bandwidth(const struct kelvin_wave_points *p,
                                     const struct kelvin_nodes *n, enum kelvin_kind kind,
                                     kelvin_vec *frequency, kelvin_vec *curvature)
 {
-    kelvin_vec x = p->x, y = p->y, z = p->z, stretch = 1 + n->slope * n->slope, root;
-    struct kelvin_complex first, second;
+    kelvin_vec x = p->x, y = p->y, z = p->z, root;
+    struct kelvin_complex first, second, bend;
     first.re = x * n->S.im - 2 * (z * n->CS.re + y * n->C2.im);
     first.im = y * (2 * n->C2.re - 1) - x * n->S.re - 2 * z * n->CS.im;
     second.re = x * n->C.im - 4 * (y * n->CS.im + z * n->C2.re) + 2 * z;
@@ -100,11 +125,22 @@ KELVIN_INLINE void kelvin_bandwidth(const struct kelvin_wave_points *p,
         second.re -= 4 * p->e2 * (4 * (r * r - i * i) - 3 * r);
         second.im -= 4 * p->e2 * (8 * r * i - 3 * i);
     }
-    *frequency = first.im + n->slope * first.re;
+    /* -w w_q/(1 + w^2). */
+    kelvin_vec scale = n->inverse * n->inverse, re = n->kappa * n->slope - n->q,
+               im = -n->kappa - n->q * n->slope;
+    bend.re = scale * (re * n->E.re + im * n->E.im);
+    bend.im = scale * (im * n->E.re - re * n->E.im);
+    *frequency = first.im * n->dv.re + first.re * n->dv.im;
     *frequency = KELVIN_MAX(*frequency, -*frequency);
-    kelvin_vec square = second.re * second.re + second.im * second.im + 1e-280;
+    kelvin_multiply(&second, &n->dv, &second);
+    kelvin_multiply(&first, &bend, &first);
+    second.re += first.re;
+    second.im += first.im;
+    kelvin_vec square = (second.re * second.re + second.im * second.im) *
+                            (n->dv.re * n->dv.re + n->dv.im * n->dv.im) +
+                        1e-280;
     kelvin_vrsqrt_to(&square, KELVIN_ROUGH, &root);
-    *curvature = square * root * stretch;
+    *curvature = square * root;
 }
 
 #endif

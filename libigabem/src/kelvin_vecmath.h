@@ -60,17 +60,18 @@ KELVIN_INLINE void kelvin_vsincos(const kelvin_vec *px, kelvin_vec *sine, kelvin
 enum kelvin_precision { KELVIN_FULL, KELVIN_ROUGH };
 
 /* 1/sqrt(x) for normal x > 0: a linear guess on the exponent and mantissa bits (relative error
- * 0.035), then Newton steps, each of which squares it times 3/2. */
+ * 0.034), then the series of y (1-e)^{-1/2}, e = 1 - x y^2, to e^3 (error 7e-6) and again to e^2.
+ */
 KELVIN_INLINE void kelvin_vrsqrt_to(const kelvin_vec *px, enum kelvin_precision precision,
                                     kelvin_vec *out)
 {
-    kelvin_vec half = *px * 0.5;
-    kelvin_vec y = (kelvin_vec)(UINT64_C(0x5fe6eb50c7b537a9) - ((kelvin_bits)*px >> 1));
-    y *= 1.5 - half * y * y;
-    y *= 1.5 - half * y * y;
+    kelvin_vec x = *px;
+    kelvin_vec y = (kelvin_vec)(UINT64_C(0x5fe6eb50c7b537a9) - ((kelvin_bits)x >> 1));
+    kelvin_vec e = 1 - x * y * y;
+    y += y * e * (0.5 + e * (0.375 + e * 0.3125));
     if (precision == KELVIN_FULL) {
-        y *= 1.5 - half * y * y;
-        y += y * (0.5 - half * y * y);
+        e = 1 - x * y * y;
+        y += y * e * (0.5 + e * 0.375);
     }
     *out = y;
 }
@@ -93,6 +94,15 @@ KELVIN_INLINE void kelvin_vlog(const kelvin_vec *px, kelvin_vec *out)
     kelvin_vec s = (m - 1) / (m + 1), q = s * s;
     *out = e * 0x1.62e42fefa39efp-1 +
            2 * s * (1 + q * (1.0 / 3 + q * (1.0 / 5 + q * (1.0 / 7 + q * (1.0 / 9)))));
+}
+
+/* Natural logarithm of normal x > 0 within 0.06 below: the exponent, and the mantissa for its
+ * logarithm. */
+KELVIN_INLINE void kelvin_vlog_rough(const kelvin_vec *px, kelvin_vec *out)
+{
+    kelvin_bits bits = (kelvin_bits)*px;
+    kelvin_vec scaled = (kelvin_vec)((bits >> 12) | UINT64_C(0x4330000000000000)) - 0x1p52;
+    *out = (scaled * 0x1p-40 - 1023) * 0x1.62e42fefa39efp-1;
 }
 
 KELVIN_INLINE double kelvin_add_lanes(const kelvin_vec *v)

@@ -10,78 +10,97 @@
 /* Sums kept: W, W_X, W_Y, W_Z, or W_Z, W_XY, W_XZ, W_YZ, W_ZZ. */
 enum { MOST_SUMS = 5 };
 
-/* Adds eight nodes to the sums. A derivative multiplies the integrand by i C, i C S, C^2. */
-KELVIN_INLINE void add_nodes(const struct kelvin_wave_points *p, const kelvin_vec *e,
-                             const kelvin_vec *g, const kelvin_bits *inside, enum kelvin_kind kind,
-                             kelvin_vec *sum)
+/* Adds the nodes n->q to the sums, spaced by `step` in q where that varies. A derivative multiplies
+ * the integrand by i C, i C S, C^2. */
+KELVIN_INLINE void add_nodes(const struct kelvin_wave_points *p, struct kelvin_nodes *n,
+                             const kelvin_vec *step, enum kelvin_kind kind, kelvin_vec *sum)
 {
-    struct kelvin_nodes nodes;
     kelvin_vec size, sine, cosine, floor = {0};
-    kelvin_place_nodes(p, e, g, kind, KELVIN_FULL, &nodes);
+    kelvin_place_nodes(p, kind, KELVIN_FULL, n);
     floor -= 700;
-    kelvin_vec exponent = KELVIN_MAX(nodes.f.re, floor);
+    kelvin_vec exponent = KELVIN_MAX(n->f.re, floor);
     kelvin_vexp(&exponent, &size);
-    size = (kelvin_vec)((kelvin_bits)size & *inside);
-    kelvin_vsincos(&nodes.f.im, &sine, &cosine);
-    struct kelvin_complex C = nodes.C, C2 = nodes.C2, CS = nodes.CS;
-    /* w = e^f C dv/du. */
-    kelvin_vec re = size * cosine, im = size * sine;
-    kelvin_vec wr = re * C.re - im * C.im, wi = re * C.im + im * C.re;
-    re = wr - wi * nodes.slope;
-    im = wi + wr * nodes.slope;
+    kelvin_vsincos(&n->f.im, &sine, &cosine);
+    struct kelvin_complex C = n->C, C2 = n->C2, CS = n->CS, g;
+    if (step)
+        size *= *step;
+    /* g = e^f C dv/dq. */
+    g.re = size * cosine;
+    g.im = size * sine;
+    kelvin_multiply(&g, &C, &g);
+    kelvin_multiply(&g, &n->dv, &g);
     if (kind == KELVIN_SECOND_DERIVATIVES) {
-        kelvin_vec zr = re * C2.re - im * C2.im, zi = re * C2.im + im * C2.re;
-        kelvin_vec xr = re * C.re - im * C.im, xi = re * C.im + im * C.re;
-        sum[0] += zi;
-        sum[1] -= xr * CS.im + xi * CS.re;
-        sum[2] += zr * C.re - zi * C.im;
-        sum[3] += zr * CS.re - zi * CS.im;
-        sum[4] += zr * C2.im + zi * C2.re;
+        struct kelvin_complex gx, gz;
+        kelvin_multiply(&g, &C, &gx);
+        kelvin_multiply(&g, &C2, &gz);
+        sum[0] += gz.im;
+        sum[1] -= gx.re * CS.im + gx.im * CS.re;
+        sum[2] += gz.re * C.re - gz.im * C.im;
+        sum[3] += gz.re * CS.re - gz.im * CS.im;
+        sum[4] += gz.re * C2.im + gz.im * C2.re;
     } else {
-        sum[0] += im;
-        sum[1] += re * C.re - im * C.im;
-        sum[2] += re * CS.re - im * CS.im;
-        sum[3] += re * C2.im + im * C2.re;
+        sum[0] += g.im;
+        sum[1] += g.re * C.re - g.im * C.im;
+        sum[2] += g.re * CS.re - g.im * CS.im;
+        sum[3] += g.re * C2.im + g.im * C2.re;
     }
 }
 
-/* Trapezoid sums of one point over one window. */
-KELVIN_INLINE void add_window(const struct kelvin_wave_points *p, double low, double high,
-                              double step, enum kelvin_kind kind, double *out)
+/* Trapezoid sums of one point over one window with q = p, in whole vectors of nodes. */
+KELVIN_INLINE void add_window(const struct kelvin_wave_points *p, double low, double step,
+                              long count, enum kelvin_kind kind, kelvin_vec *sum)
 {
-    if (!(high > low))
-        return;
-    kelvin_vec sum[MOST_SUMS] = {{0}}, e, g, jump = {8 * step, -8 * step}, ratio;
-    kelvin_vec index = {0, 1, 2, 3, 4, 5, 6, 7}, u = low + step * index, minus = -u;
-    long count = (long)((high - low) / step) + 1;
-    kelvin_vexp(&u, &e);
-    kelvin_vexp(&minus, &g);
-    kelvin_vexp(&jump, &ratio);
-    double up = ratio[0], down = ratio[1];
+    kelvin_vec index = {0, 1, 2, 3, 4, 5, 6, 7};
     for (long k = 0; k < count; k += KELVIN_LANES) {
-        kelvin_bits inside = KELVIN_LESS(index, (double)(count - k));
-        add_nodes(p, &e, &g, &inside, kind, sum);
-        e *= up;
-        g *= down;
+        struct kelvin_nodes nodes;
+        nodes.q = low + step * (index + (double)k);
+        add_nodes(p, &nodes, NULL, kind, sum);
     }
-    for (int k = 0; k < MOST_SUMS; k++)
-        out[k] += 4 * step * kelvin_add_lanes(&sum[k]);
+}
+
+/* The same with q = sinh p. */
+KELVIN_INLINE void add_curved_window(const struct kelvin_wave_points *p, double low, double step,
+                                     long count, enum kelvin_kind kind, kelvin_vec *sum)
+{
+    kelvin_vec index = {0, 1, 2, 3, 4, 5, 6, 7};
+    for (long k = 0; k < count; k += KELVIN_LANES) {
+        struct kelvin_nodes nodes;
+        kelvin_vec up = low + step * (index + (double)k), down = -up;
+        kelvin_vexp(&up, &up);
+        kelvin_vexp(&down, &down);
+        kelvin_vec slope = 0.5 * (up + down);
+        nodes.q = 0.5 * (up - down);
+        add_nodes(p, &nodes, &slope, kind, sum);
+    }
 }
 
 /* The sums for up to eight points with x > 0, y >= 0. */
 KELVIN_INLINE void wave_of_lanes(const struct kelvin_wave_points *points, size_t n,
                                  enum kelvin_kind kind, double (*out)[MOST_SUMS])
 {
-    struct kelvin_window window[2];
-    kelvin_find_windows(points, kind, &window[0], &window[1]);
+    struct kelvin_windows windows;
+    kelvin_find_windows(points, kind, &windows);
     for (size_t i = 0; i < n; i++) {
         kelvin_vec zero = {0};
         struct kelvin_wave_points p = {zero + points->x[i], zero + points->y[i],
                                        zero + points->z[i], points->e2};
         for (int k = 0; k < MOST_SUMS; k++)
             out[i][k] = 0;
-        for (int k = 0; k < 2; k++)
-            add_window(&p, window[k].low[i], window[k].high[i], window[k].step[i], kind, out[i]);
+        for (int part = 0; part < 2; part++) {
+            struct kelvin_window *w = &windows.part[part];
+            double low = w->low[i], length = w->high[i] - low;
+            if (!(length > 0))
+                continue;
+            kelvin_vec sum[MOST_SUMS] = {{0}};
+            long count = ((long)(length / w->step[i]) + KELVIN_LANES) & -KELVIN_LANES;
+            double step = length / (double)(count - 1);
+            if (windows.curved[i])
+                add_curved_window(&p, low, step, count, kind, sum);
+            else
+                add_window(&p, low, step, count, kind, sum);
+            for (int k = 0; k < MOST_SUMS; k++)
+                out[i][k] += 4 * step * kelvin_add_lanes(&sum[k]);
+        }
     }
 }
 

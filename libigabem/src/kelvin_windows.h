@@ -1,29 +1,40 @@
 /* Which parts of the contour of kelvin_contour.h count, and the step of the trapezoid rule on them,
  * for eight points at once.
  *
- * Kept is where the level Re f + 3 |u| exceeds -KELVIN_CUT; |C|^3 <= e^{3|u|} bounds every weight
- * of value and gradient (5 for second derivatives). The level falls to both sides of the stationary
- * points u1 <= u2 and may fall between them: one window or two, found from probes. Where the
- * exponent has frequency w(u) and curvature q(u) as functions of u, the integrand looks like a
- * Gaussian of height e^level with the spectrum exp(-(k-w)^2/(2q)); the trapezoid rule of step h
- * errs by the spectrum at 2 pi/h, so it asks for 2 pi/h > B(u) = w + sqrt(2 q (KELVIN_CUT +
- * level)). With the strip in which the contour is analytic,
+ * Kept is where the level Re f + weight ln(1 + 2 q^2) exceeds -KELVIN_CUT; |C|^3 bounds every
+ * weight of value and gradient (5 for second derivatives). The level falls to both sides of the
+ * stationary points q1 <= q2 and may fall between them: one window or two, found from probes. Where
+ * the exponent has frequency w and curvature c as functions of p, the integrand looks like a
+ * Gaussian of height e^level with the spectrum exp(-(k-w)^2/(2c)); the trapezoid rule of step h
+ * errs by the spectrum at 2 pi/h, so it asks for 2 pi/h > B = w + sqrt(2 c (KELVIN_CUT + level)).
+ * With the strip in which the contour is analytic,
  *
  *     h = KELVIN_SAFETY 2 pi/sqrt(max B^2 + 2 KELVIN_STRIP KELVIN_CUT).
  *
- * The last two constants are fitted to errors of about 1e-10 of max(1, |W|), max(1, |grad W|). */
+ * The constants are fitted to errors below 1e-10 of max(1, |W|), max(1, |grad W|). */
 #ifndef IGABEM_KELVIN_WINDOWS_H
 #define IGABEM_KELVIN_WINDOWS_H
 
 #include "kelvin_contour.h"
 
-#define KELVIN_CUT    26.0
-#define KELVIN_SAFETY 0.97
-#define KELVIN_STRIP  25.0
+#define KELVIN_CUT    25.5
+#define KELVIN_SAFETY 0.96
+/* Behind the source inside the wedge, outside it, and for q = sinh p, which is taken where the
+ * contour reaches beyond q = -KELVIN_LONG. */
+#define KELVIN_STRIP         14.0
+#define KELVIN_STRIP_COMPLEX 80.0
+#define KELVIN_STRIP_LONG    40.0
+#define KELVIN_LONG          12.0
 
-/* Nodes low, low + step, ... below high, per lane; empty where high <= low. */
+/* Nodes low, low + step, ... below high in p, per lane; empty where high <= low. */
 struct kelvin_window {
     kelvin_vec low, high, step;
+};
+
+/* A lane of all ones where q = sinh p. */
+struct kelvin_windows {
+    struct kelvin_window part[2];
+    kelvin_bits curved;
 };
 
 /* The power of |C| that bounds the weights. */
@@ -32,22 +43,26 @@ KELVIN_INLINE double kelvin_weight(enum kelvin_kind kind)
     return kind == KELVIN_SECOND_DERIVATIVES ? 5 : 3;
 }
 
-/* One place: w, q and what is left above the cut. */
+/* One place: w, c and what is left above the cut. */
 struct kelvin_probe {
-    kelvin_vec u, frequency, curvature, above;
+    kelvin_vec q, frequency, curvature, above;
 };
 
-KELVIN_INLINE void kelvin_probe_at(const struct kelvin_wave_points *p, const kelvin_vec *u,
-                                   enum kelvin_kind kind, struct kelvin_probe *probe)
+KELVIN_INLINE void kelvin_probe_at(const struct kelvin_wave_points *p, const kelvin_bits *curved,
+                                   const kelvin_vec *q, enum kelvin_kind kind,
+                                   struct kelvin_probe *probe)
 {
     struct kelvin_nodes nodes;
-    kelvin_vec e, g, minus = -*u;
-    kelvin_vexp(u, &e);
-    kelvin_vexp(&minus, &g);
-    kelvin_place_nodes(p, &e, &g, kind, KELVIN_ROUGH, &nodes);
+    kelvin_vec size = 1 + 2 * *q * *q, log, one = {0}, stretch;
+    one += 1;
+    nodes.q = probe->q = *q;
+    kelvin_place_nodes(p, kind, KELVIN_ROUGH, &nodes);
     kelvin_bandwidth(p, &nodes, kind, &probe->frequency, &probe->curvature);
-    probe->u = *u;
-    probe->above = nodes.f.re + kelvin_weight(kind) * KELVIN_MAX(*u, minus) + KELVIN_CUT;
+    stretch = KELVIN_SELECT(*curved, nodes.r, one);
+    probe->frequency *= stretch;
+    probe->curvature *= stretch * stretch;
+    kelvin_vlog_rough(&size, &log);
+    probe->above = nodes.f.re + kelvin_weight(kind) * log + KELVIN_CUT;
 }
 
 /* B of the rule above, zero below the cut. */
@@ -76,52 +91,51 @@ KELVIN_INLINE void kelvin_demand_between(const struct kelvin_probe *from,
     kelvin_demand(to, &here);
     *demand = KELVIN_MAX(*demand, here);
 }
-
 /* A range of probes in one direction from a stationary point. */
 struct kelvin_range {
-    kelvin_vec demand; /* largest B */
-    kelvin_vec last; /* the outermost place above the cut, moved out towards the first one below */
+    kelvin_vec last, demand;
 };
 
-/* Probes from `start` outwards to start + reach (either sign). */
+/* Probes at the given fractions of *reach, outwards from *start. */
 KELVIN_INLINE void kelvin_probe_outwards(const struct kelvin_wave_points *p,
-                                         const kelvin_vec *start, const kelvin_vec *reach,
-                                         enum kelvin_kind kind, struct kelvin_range *seen)
+                                         const kelvin_bits *curved,
+                                         const struct kelvin_probe *start, const kelvin_vec *reach,
+                                         const double *fraction, int probes, enum kelvin_kind kind,
+                                         struct kelvin_range *seen)
 {
-    static const double fraction[] = {0.12, 0.26, 0.42, 0.6, 0.8, 1};
-    struct kelvin_probe before, now;
+    struct kelvin_probe before = *start, now;
     kelvin_vec zero = {0};
-    kelvin_probe_at(p, start, kind, &before);
     kelvin_demand(&before, &seen->demand);
-    seen->last = *start;
-    for (int k = 0; k < 6; k++, before = now) {
-        kelvin_vec u = *start + *reach * fraction[k];
-        kelvin_probe_at(p, &u, kind, &now);
+    seen->last = start->q;
+    for (int k = 0; k < probes; k++, before = now) {
+        kelvin_vec q = start->q + *reach * fraction[k];
+        kelvin_probe_at(p, curved, &q, kind, &now);
         kelvin_demand_between(&before, &now, &seen->demand);
         /* Half way between where the chord crosses the cut and the outer end: the level is concave.
          */
         kelvin_bits counts = KELVIN_LESS(zero, now.above);
         kelvin_bits leaves = KELVIN_LESS(zero, before.above) & ~counts;
         kelvin_vec crossing =
-            before.u + (u - before.u) * (before.above / (before.above - now.above));
-        seen->last = KELVIN_SELECT(leaves, 0.5 * (crossing + u), seen->last);
-        seen->last = KELVIN_SELECT(counts, u, seen->last);
+            before.q + (q - before.q) * (before.above / (before.above - now.above));
+        seen->last = KELVIN_SELECT(leaves, 0.5 * (crossing + q), seen->last);
+        seen->last = KELVIN_SELECT(counts, q, seen->last);
     }
 }
 
-/* Stationary points of the phase: t = sinh u = (x -+ sqrt(x^2 - 8 y^2))/(4 y), or the real part of
- * the pair. */
+/* Stationary points of the phase in q: t = (x -+ sqrt(x^2 - 8 y^2))/(4 y), or the real part of the
+ * pair; q = t/sqrt(2 (1 + sqrt(1 + t^2))). */
 struct kelvin_saddles {
-    kelvin_vec u1, u2, q1, q2; /* places and |f''| at z = 0 */
+    kelvin_vec q1, q2, c1, c2; /* places and |f_qq| at z = 0 */
     kelvin_bits real;
 };
 
-KELVIN_INLINE void kelvin_asinh(const kelvin_vec *t, kelvin_vec *u)
+KELVIN_INLINE void kelvin_q_of_t(const kelvin_vec *t, kelvin_vec *q)
 {
     kelvin_vec square = 1 + *t * *t, root;
     kelvin_vrsqrt(&square, &root);
-    kelvin_vec e = *t + square * root;
-    kelvin_vlog(&e, u);
+    square = 2 + 2 * (square * root);
+    kelvin_vrsqrt(&square, &root);
+    *q = *t * root;
 }
 
 KELVIN_INLINE void kelvin_find_saddles(const struct kelvin_wave_points *p, struct kelvin_saddles *s)
@@ -134,22 +148,22 @@ KELVIN_INLINE void kelvin_find_saddles(const struct kelvin_wave_points *p, struc
     y4 = KELVIN_MAX(y4, least);
     kelvin_vec middle = x / y4, t1 = KELVIN_SELECT(s->real, 2 * y / sum, middle);
     kelvin_vec t2 = KELVIN_SELECT(s->real, sum / y4, middle);
-    kelvin_asinh(&t1, &s->u1);
-    kelvin_asinh(&t2, &s->u2);
-    s->q1 = root;
-    s->q2 = root * (1 + t2);
+    kelvin_q_of_t(&t1, &s->q1);
+    kelvin_q_of_t(&t2, &s->q2);
+    s->c1 = s->c2 = 4 * root;
 }
 
 /* How far from the stationary points the contour can count: bounds from each way of decaying alone.
  */
 struct kelvin_reach {
-    kelvin_vec left, right, between; /* places; `between` if only u1 counts */
+    kelvin_vec left, right, between; /* places; `between` if only q1 counts */
 };
 
 KELVIN_INLINE void kelvin_sqrt(const kelvin_vec *square, kelvin_vec *root)
 {
-    kelvin_vrsqrt_to(square, KELVIN_ROUGH, root);
-    *root *= *square;
+    kelvin_vec inverse;
+    kelvin_vrsqrt_to(square, KELVIN_ROUGH, &inverse);
+    *root = *square * inverse;
 }
 
 KELVIN_INLINE void kelvin_bound_reach(const struct kelvin_wave_points *p,
@@ -161,137 +175,166 @@ KELVIN_INLINE void kelvin_bound_reach(const struct kelvin_wave_points *p,
     /* T: what -Re f must reach to outweigh the powers of C. */
     kelvin_vec e = 500 / (z + 0.1 * y + 1e-26), T, T_x;
     e = KELVIN_MAX(e, one);
-    kelvin_vlog(&e, &T);
+    kelvin_vlog_rough(&e, &T);
     e = 200 / x + 1;
-    kelvin_vlog(&e, &T_x);
+    kelvin_vlog_rough(&e, &T_x);
     T = KELVIN_CUT + 2 + 0.5 * kelvin_weight(kind) * KELVIN_MIN(T, 2 * T_x);
 
-    /* Where exp(-z cosh^2 u), exp(-x sinh u sin tau), exp(-y sinh 2u sin 2 tau/2) alone reach T. */
-    kelvin_vec by_z, by_x, by_y, t_over_x = T / x, t_over_y = T / y, root_x, root_y;
-    kelvin_sqrt(&t_over_x, &root_x);
-    kelvin_sqrt(&t_over_y, &root_y);
-    e = 8 * T / z + 1;
-    kelvin_vlog(&e, &by_z);
-    by_z *= 0.5;
+    /* Where z (1 + 2 q^2)^2, 2.5 x q^2, 5 y q^4 alone reach T. */
+    kelvin_vec by_z, by_x, by_y, t_over_x = T / x, t_over_y = T / y, t_over_z = T / z;
+    kelvin_sqrt(&t_over_z, &by_z);
+    by_z = 0.5 * by_z + 0.1;
+    kelvin_sqrt(&by_z, &by_z);
     if (kind == KELVIN_FILTERED) {
-        kelvin_vec by_filter, fourth = 8 * T / (p->e2 + 1e-280);
-        kelvin_sqrt(&fourth, &e);
-        e = 4 * e + 1;
-        kelvin_vlog(&e, &by_filter);
-        by_filter *= 0.5;
+        kelvin_vec by_filter = T / (p->e2 + 1e-280);
+        kelvin_sqrt(&by_filter, &by_filter);
+        kelvin_sqrt(&by_filter, &by_filter);
+        by_filter = 0.5 * by_filter + 0.1;
+        kelvin_sqrt(&by_filter, &by_filter);
         by_z = KELVIN_MIN(by_z, by_filter);
     }
-    e = 6 * t_over_y + 1;
-    kelvin_vlog(&e, &by_y);
-    by_y *= 0.5;
-    e = KELVIN_MAX(3 * t_over_x, 1.1 * root_x);
-    kelvin_asinh(&e, &by_x);
+    kelvin_vec root_y;
+    kelvin_sqrt(&t_over_y, &root_y);
+    e = 0.45 * root_y;
+    kelvin_sqrt(&e, &by_y);
+    e = 0.4 * t_over_x;
+    kelvin_sqrt(&e, &by_x);
 
     /* Next to a stationary point: quadratic, or cubic where two merge. */
-    kelvin_vec cubic, square1 = 2 * T / s->q1, square2 = 2 * T / s->q2, near1, near2, near_square;
-    e = 6 * t_over_x;
-    kelvin_vlog(&e, &cubic);
-    cubic *= 1.0 / 3;
-    kelvin_vexp(&cubic, &cubic);
-    kelvin_sqrt(&square1, &near_square);
-    kelvin_sqrt(&square2, &near2);
-    near1 = 1.3 * KELVIN_MIN(near_square, cubic);
-    near2 = 1.3 * KELVIN_MIN(near2, cubic);
-    kelvin_vec least1 = 1e-3 * KELVIN_MIN(near1, one), least2 = 1e-3 * KELVIN_MIN(near2, one);
+    kelvin_vec square = 2 * T / s->c1, near;
+    kelvin_sqrt(&square, &near);
+    near = 1.4 * KELVIN_MIN(near, 1.3 * by_x + 0.5);
+    kelvin_vec least = 1e-3 * KELVIN_MIN(near, one);
 
     kelvin_vec far = KELVIN_MIN(by_x, by_y);
     far = KELVIN_MIN(far, by_z);
-    reach->left = KELVIN_MAX(-far, s->u1 - near1);
-    reach->left = KELVIN_MIN(reach->left, s->u1 - least1);
+    reach->left = KELVIN_MIN(-far, s->q1 - least);
 
-    /* Beyond u2, where y e^{2u} has to win over x e^u. */
-    e = 3 * x / y + 2.5 * root_y + 1;
-    kelvin_vlog(&e, &far);
+    /* Beyond q2, where y q^4 has to win over x q^2. */
+    e = x / y + 0.6 * root_y;
+    kelvin_sqrt(&e, &far);
     far = KELVIN_MIN(far, by_z);
-    reach->right = KELVIN_MIN(far, s->u2 + near2);
-    reach->right = KELVIN_MAX(reach->right, s->u2 + least2);
+    far = KELVIN_MIN(far, s->q2 + near);
+    reach->right = KELVIN_MAX(far, s->q2 + least);
 
-    e = KELVIN_MAX(5 * t_over_x, 1.6 * root_x);
-    kelvin_asinh(&e, &far);
-    far = KELVIN_MIN(s->u1 + far, by_z);
-    far = KELVIN_MIN(far, s->u2);
-    reach->between = KELVIN_MIN(far, s->u1 + 1.5 * near_square);
-    reach->between = KELVIN_MAX(reach->between, s->u1 + least1);
+    /* Between them 2.5 x q^2 holds far from q2 only. */
+    far = KELVIN_SELECT(KELVIN_LESS(4 * by_x, s->q2), s->q1 + 2 * by_x, s->q2);
+    far = KELVIN_MIN(far, by_z);
+    reach->between = KELVIN_MAX(far, s->q1 + least);
 }
 
-KELVIN_INLINE void kelvin_step(const kelvin_vec *demand, kelvin_vec *step)
+KELVIN_INLINE int kelvin_any(const kelvin_bits *mask)
 {
-    kelvin_vec square = *demand * *demand + 2 * KELVIN_STRIP * KELVIN_CUT;
-    kelvin_vrsqrt_to(&square, KELVIN_ROUGH, step);
-    *step *= KELVIN_SAFETY * 6.2831853071795865;
+    uint64_t any = 0;
+    for (int k = 0; k < KELVIN_LANES; k++)
+        any |= (*mask)[k];
+    return any != 0;
 }
 
-/* Where the level stays below the cut between u1 and u2: the first and the last such probe. */
+/* Where the level stays below the cut between q1 and q2: the first and the last such probe. */
 struct kelvin_dip {
     kelvin_bits split;
     kelvin_vec from, to, demand_before, demand_after;
 };
 
-KELVIN_INLINE void kelvin_find_dip(const struct kelvin_wave_points *p,
-                                   const struct kelvin_saddles *s, const kelvin_bits *both,
+KELVIN_INLINE void kelvin_find_dip(const struct kelvin_wave_points *p, const kelvin_bits *curved,
+                                   const struct kelvin_probe *at_q1,
+                                   const struct kelvin_probe *at_q2, const kelvin_bits *both,
                                    enum kelvin_kind kind, struct kelvin_dip *dip)
 {
-    kelvin_vec zero = {0}, gap = s->u2 - s->u1;
-    uint64_t any = 0;
-    *dip = (struct kelvin_dip){{0}, s->u1, s->u1, zero, zero};
-    for (int k = 0; k < KELVIN_LANES; k++)
-        any |= (*both)[k];
-    if (!any)
-        return;
-    struct kelvin_probe before, now;
-    kelvin_probe_at(p, &s->u1, kind, &before);
-    for (int k = 1; k <= 6; k++, before = now) {
-        kelvin_vec u = s->u1 + gap * (k / 6.0), demand = zero;
-        kelvin_probe_at(p, &u, kind, &now);
+    kelvin_vec zero = {0}, gap = at_q2->q - at_q1->q, room = p->x * gap * gap;
+    kelvin_bits deep = *both & KELVIN_LESS(zero + KELVIN_CUT, room);
+    *dip = (struct kelvin_dip){{0}, at_q1->q, at_q1->q, zero, zero};
+    int probes = kelvin_any(&deep) ? 6 : kelvin_any(both) ? 2 : 0;
+    struct kelvin_probe before = *at_q1, now;
+    for (int k = 1; k <= probes; k++, before = now) {
+        kelvin_vec q = at_q1->q + gap * ((double)k / probes), demand = zero;
+        if (k < probes)
+            kelvin_probe_at(p, curved, &q, kind, &now);
+        else
+            now = *at_q2;
         kelvin_demand_between(&before, &now, &demand);
         demand = KELVIN_SELECT(*both, demand, zero);
         kelvin_bits below = *both & KELVIN_LESS(now.above, zero - 2);
         kelvin_vec larger = KELVIN_MAX(dip->demand_before, demand);
         dip->demand_before = KELVIN_SELECT(dip->split, dip->demand_before, larger);
-        dip->from = KELVIN_SELECT(below & ~dip->split, u, dip->from);
-        dip->to = KELVIN_SELECT(below, u, dip->to);
+        dip->from = KELVIN_SELECT(below & ~dip->split, q, dip->from);
+        dip->to = KELVIN_SELECT(below, q, dip->to);
         dip->split |= below;
         dip->demand_after = KELVIN_MAX(dip->demand_after, demand);
         dip->demand_after = KELVIN_SELECT(below, zero, dip->demand_after);
     }
 }
 
-/* first holds the only window, or the one about u1 if second is not empty. */
-KELVIN_INLINE void kelvin_find_windows(const struct kelvin_wave_points *p, enum kelvin_kind kind,
-                                       struct kelvin_window *first, struct kelvin_window *second)
+KELVIN_INLINE void kelvin_step(const kelvin_vec *demand, const kelvin_bits *curved,
+                               const kelvin_bits *real, kelvin_vec *step)
 {
+    kelvin_vec zero = {0}, strip = zero + KELVIN_STRIP, complex = zero + KELVIN_STRIP_COMPLEX,
+               curve = zero + KELVIN_STRIP_LONG;
+    strip = KELVIN_SELECT(*real, strip, complex);
+    strip = KELVIN_SELECT(*curved, curve, strip);
+    kelvin_vec square = *demand * *demand + 2 * KELVIN_CUT * strip;
+    kelvin_vrsqrt_to(&square, KELVIN_ROUGH, step);
+    *step *= KELVIN_SAFETY * 6.2831853071795865;
+}
+
+/* From q to p: asinh of either sign in the lanes that are curved. */
+KELVIN_INLINE void kelvin_p_of_q(const kelvin_bits *curved, kelvin_vec *q)
+{
+    kelvin_vec size = KELVIN_MAX(*q, -*q), square = 1 + size * size, root, p, zero = {0};
+    kelvin_vrsqrt(&square, &root);
+    root = size + square * root;
+    kelvin_vlog(&root, &p);
+    p = KELVIN_SELECT(KELVIN_LESS(*q, zero), -p, p);
+    *q = KELVIN_SELECT(*curved, p, *q);
+}
+
+/* The first holds the only window, or the one about q1 if the second is not empty. */
+KELVIN_INLINE void kelvin_find_windows(const struct kelvin_wave_points *p, enum kelvin_kind kind,
+                                       struct kelvin_windows *windows)
+{
+    struct kelvin_window *first = &windows->part[0], *second = &windows->part[1];
     struct kelvin_saddles s;
     struct kelvin_reach reach;
     struct kelvin_range left, right;
-    struct kelvin_probe at_u2;
+    struct kelvin_probe at_q1, at_q2, from;
+    static const double few[] = {0.2, 0.42, 0.7, 1}, many[] = {0.12, 0.28, 0.48, 0.72, 1};
+    kelvin_vec zero = {0};
     kelvin_find_saddles(p, &s);
     kelvin_bound_reach(p, &s, kind, &reach);
-    kelvin_probe_at(p, &s.u2, kind, &at_u2);
+    kelvin_bits curved = KELVIN_LESS(reach.left, zero - KELVIN_LONG);
+    kelvin_probe_at(p, &curved, &s.q1, kind, &at_q1);
+    kelvin_probe_at(p, &curved, &s.q2, kind, &at_q2);
 
-    kelvin_vec span = reach.left - s.u1;
-    kelvin_probe_outwards(p, &s.u1, &span, kind, &left);
-    /* Outwards from u2 if it counts or if the pair is complex, from u1 otherwise. */
-    kelvin_bits both = s.real & KELVIN_LESS(0 * at_u2.above, at_u2.above), single = s.real & ~both;
-    kelvin_vec from = KELVIN_SELECT(single, s.u1, s.u2);
-    span = KELVIN_SELECT(single, reach.between - s.u1, reach.right - s.u2);
-    kelvin_probe_outwards(p, &from, &span, kind, &right);
+    kelvin_vec span = reach.left - s.q1;
+    kelvin_probe_outwards(p, &curved, &at_q1, &span, few, 4, kind, &left);
+    /* Outwards from q2 if it counts or if the pair is complex, from q1 otherwise. */
+    kelvin_bits both = s.real & KELVIN_LESS(zero, at_q2.above), single = s.real & ~both;
+    from.q = KELVIN_SELECT(single, s.q1, s.q2);
+    from.above = KELVIN_SELECT(single, at_q1.above, at_q2.above);
+    from.frequency = KELVIN_SELECT(single, at_q1.frequency, at_q2.frequency);
+    from.curvature = KELVIN_SELECT(single, at_q1.curvature, at_q2.curvature);
+    span = KELVIN_SELECT(single, reach.between - s.q1, reach.right - s.q2);
+    kelvin_probe_outwards(p, &curved, &from, &span, many, 5, kind, &right);
 
     struct kelvin_dip dip;
-    kelvin_find_dip(p, &s, &both, kind, &dip);
+    kelvin_find_dip(p, &curved, &at_q1, &at_q2, &both, kind, &dip);
     kelvin_vec demand = KELVIN_MAX(left.demand, dip.demand_before);
     first->low = left.last;
     first->high = KELVIN_SELECT(dip.split, dip.from, right.last);
     demand = KELVIN_SELECT(dip.split, demand, KELVIN_MAX(demand, right.demand));
-    kelvin_step(&demand, &first->step);
+    kelvin_step(&demand, &curved, &s.real, &first->step);
     demand = KELVIN_MAX(right.demand, dip.demand_after);
-    kelvin_step(&demand, &second->step);
+    kelvin_step(&demand, &curved, &s.real, &second->step);
     second->low = dip.to;
     second->high = KELVIN_SELECT(dip.split, right.last, dip.to - 1);
+    windows->curved = curved;
+    if (kelvin_any(&curved)) {
+        kelvin_p_of_q(&curved, &first->low);
+        kelvin_p_of_q(&curved, &first->high);
+        kelvin_p_of_q(&curved, &second->low);
+        kelvin_p_of_q(&curved, &second->high);
+    }
 }
 
 #endif
