@@ -23,7 +23,7 @@
 
 #include "kelvin_vecmath.h"
 
-/* x, y, z as above, of one point in all lanes or of eight points; e2 = e^2 of the filter or 0. */
+/* x, y, z as above, of one point, two or sixteen in the lanes; e2 = e^2 of the filter or 0. */
 struct kelvin_wave_points {
     kelvin_vec x, y, z;
     double e2;
@@ -36,8 +36,8 @@ struct kelvin_complex {
     kelvin_vec re, im;
 };
 
-/* Eight nodes: w = q + i kappa, r, dw/dq = 1 + i slope, E = 1 + w^2 and 1/|E|, C, S, C^2, C S, the
- * exponent f, dv/dq. */
+/* Sixteen nodes: w = q + i kappa, r, dw/dq = 1 + i slope, E = 1 + w^2 and 1/|E|, C, S, C^2, C S,
+ * the exponent f, dv/dq. */
 struct kelvin_nodes {
     kelvin_vec q, r, kappa, slope, inverse;
     struct kelvin_complex E, C, S, C2, CS, f, dv;

@@ -13,15 +13,15 @@ struct jet {
 /* Sum_{i+j <= degree} c_ij x^i y^j for eight coefficients at once, with its derivatives in x and y:
  * Horner. */
 KELVIN_INLINE const double *plane_sum(const double *c, int degree, double x, double y,
-                                      kelvin_vec *f, kelvin_vec *fx, kelvin_vec *fy)
+                                      kelvin_octet *f, kelvin_octet *fx, kelvin_octet *fy)
 {
-    kelvin_vec sum = {0}, sum_x = {0}, sum_y = {0};
+    kelvin_octet sum = {0}, sum_x = {0}, sum_y = {0};
     for (int i = degree; i >= 0; i--) {
-        kelvin_vec row = *(const kelvin_vec *)c, row_y = {0};
-        c += KELVIN_LANES;
-        for (int j = degree - i; j > 0; j--, c += KELVIN_LANES) {
+        kelvin_octet row = *(const kelvin_octet *)c, row_y = {0};
+        c += KELVIN_OCTET;
+        for (int j = degree - i; j > 0; j--, c += KELVIN_OCTET) {
             row_y = row_y * y + row;
-            row = row * y + *(const kelvin_vec *)c;
+            row = row * y + *(const kelvin_octet *)c;
         }
         sum_x = sum_x * x + sum;
         sum = sum * x + row;
@@ -33,9 +33,9 @@ KELVIN_INLINE const double *plane_sum(const double *c, int degree, double x, dou
     return c;
 }
 
-KELVIN_INLINE double add_lanes(const kelvin_vec *v)
+KELVIN_INLINE double add_lanes(const kelvin_octet *v)
 {
-    double a[KELVIN_LANES];
+    double a[KELVIN_OCTET];
     memcpy(a, v, sizeof a);
     return ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]));
 }
@@ -43,20 +43,20 @@ KELVIN_INLINE double add_lanes(const kelvin_vec *v)
 KELVIN_INLINE void cell_jet(const struct kelvin_coordinates *at, struct jet *jet)
 {
     double z = at->z, z2 = z * z, z3 = z2 * z, z4 = z2 * z2, z7 = z4 * z3, z8 = z4 * z4;
-    kelvin_vec power = {1, z, z2, z3, z4, z4 * z, z4 * z2, z7};
-    kelvin_vec slope = {0, 1, 2 * z, 3 * z2, 4 * z3, 5 * z4, 6 * (z4 * z), 7 * (z4 * z2)};
+    kelvin_octet power = {1, z, z2, z3, z4, z4 * z, z4 * z2, z7};
+    kelvin_octet slope = {0, 1, 2 * z, 3 * z2, 4 * z3, 5 * z4, 6 * (z4 * z), 7 * (z4 * z2)};
     int degree = (int)at->cell->degree;
-    kelvin_vec f, fx, fy;
+    kelvin_octet f, fx, fy;
     const double *c =
         plane_sum(kelvin_coefficients + at->cell->offset, degree, at->x, at->y, &f, &fx, &fy);
-    kelvin_vec fz = f * slope;
+    kelvin_octet fz = f * slope;
     f *= power;
     fx *= power;
     fy *= power;
-    if (degree >= KELVIN_LANES) {
-        kelvin_vec g, gx, gy;
-        plane_sum(c, degree - KELVIN_LANES, at->x, at->y, &g, &gx, &gy);
-        kelvin_vec high = power * z8;
+    if (degree >= KELVIN_OCTET) {
+        kelvin_octet g, gx, gy;
+        plane_sum(c, degree - KELVIN_OCTET, at->x, at->y, &g, &gx, &gy);
+        kelvin_octet high = power * z8;
         fz += g * (slope * z8 + power * (8 * z7));
         f += g * high;
         fx += gx * high;

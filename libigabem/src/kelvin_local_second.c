@@ -14,17 +14,17 @@ struct jet2 {
 /* Sum of c_ijk x^i y^j z^k over the cell, by powers of z inside Horner's rule in x and y. */
 static void cell_jet2(const struct kelvin_coordinates *at, struct jet2 *jet)
 {
-    double x = at->x, y = at->y, power[2 * KELVIN_LANES + 8], sum[3][3][3] = {{{0}}};
+    double x = at->x, y = at->y, power[2 * KELVIN_OCTET + 8], sum[3][3][3] = {{{0}}};
     int degree = (int)at->cell->degree;
     power[0] = 1;
     for (int k = 1; k <= degree; k++)
         power[k] = power[k - 1] * at->z;
     const double *c = kelvin_coefficients + at->cell->offset;
-    for (int first = 0; first <= degree; first += KELVIN_LANES)
+    for (int first = 0; first <= degree; first += KELVIN_OCTET)
         for (int part = 0; part < 3; part++) {
             /* part: order of the derivative in z, as a weight on the powers. */
-            double weight[KELVIN_LANES] = {0}, plane[3][3] = {{0}};
-            for (int l = 0; l < KELVIN_LANES && first + l <= degree; l++) {
+            double weight[KELVIN_OCTET] = {0}, plane[3][3] = {{0}};
+            for (int l = 0; l < KELVIN_OCTET && first + l <= degree; l++) {
                 int k = first + l;
                 double factor = part == 0 ? 1 : part == 1 ? k : k * (k - 1.0);
                 weight[l] = k >= part ? factor * power[k - part] : 0;
@@ -32,9 +32,9 @@ static void cell_jet2(const struct kelvin_coordinates *at, struct jet2 *jet)
             const double *row = c;
             for (int i = degree - first; i >= 0; i--) {
                 double r[3] = {0};
-                for (int j = degree - first - i; j >= 0; j--, row += KELVIN_LANES) {
+                for (int j = degree - first - i; j >= 0; j--, row += KELVIN_OCTET) {
                     double s = 0;
-                    for (int l = 0; l < KELVIN_LANES; l++)
+                    for (int l = 0; l < KELVIN_OCTET; l++)
                         s += row[l] * weight[l];
                     r[2] = r[2] * y + 2 * r[1];
                     r[1] = r[1] * y + r[0];

@@ -1,5 +1,6 @@
-/* Eight doubles at a time in portable GNU C vectors, and one function body compiled for several
- * instruction sets. Vectors travel by pointer: passing them by value between functions of different
+/* Vectors of doubles in portable GNU C, and one function body compiled for several instruction
+ * sets. Sixteen lanes are two registers of AVX-512: two independent chains of operations hide each
+ * other's latency. Vectors travel by pointer: passing them by value between functions of different
  * instruction sets has no stable calling convention, even when inlined. */
 #ifndef IGABEM_KELVIN_SIMD_H
 #define IGABEM_KELVIN_SIMD_H
@@ -21,9 +22,10 @@
 
 #define KELVIN_INLINE static inline __attribute__((always_inline))
 
-enum { KELVIN_LANES = 8 };
+enum { KELVIN_OCTET = 8, KELVIN_LANES = 16 };
 
-typedef double kelvin_vec __attribute__((vector_size(64)));
-typedef uint64_t kelvin_bits __attribute__((vector_size(64)));
+typedef double kelvin_octet __attribute__((vector_size(64)));
+typedef double kelvin_vec __attribute__((vector_size(128)));
+typedef uint64_t kelvin_bits __attribute__((vector_size(128)));
 
 #endif

@@ -1,4 +1,4 @@
-/* Elementary functions of eight doubles, to a few units in the last place on the ranges stated:
+/* Elementary functions of sixteen doubles, to a few units in the last place on the ranges stated:
  * what the contour integral of W needs. Plain arithmetic and integer shifts, so that every
  * instruction set does. */
 #ifndef IGABEM_KELVIN_VECMATH_H
@@ -10,7 +10,7 @@
 #define KELVIN_ROUNDER 0x1.8p52
 
 /* Lane by lane, on finite numbers: a mask of all ones where a < b, taken from the sign of a - b,
- * because compilers break 512-bit comparisons up into single lanes. */
+ * because compilers break wide comparisons up into single lanes. */
 #define KELVIN_LESS(a, b) (0 - ((kelvin_bits)((a) - (b)) >> 63))
 #define KELVIN_SELECT(mask, a, b)                                                                  \
     ((kelvin_vec)(((kelvin_bits)(a) & (mask)) | ((kelvin_bits)(b) & ~(mask))))
@@ -105,11 +105,18 @@ KELVIN_INLINE void kelvin_vlog_rough(const kelvin_vec *px, kelvin_vec *out)
     *out = (scaled * 0x1p-40 - 1023) * 0x1.62e42fefa39efp-1;
 }
 
-KELVIN_INLINE double kelvin_add_lanes(const kelvin_vec *v)
+/* The sum of eight lanes. */
+KELVIN_INLINE double kelvin_add_octet(const kelvin_vec *v, int first)
 {
     double a[KELVIN_LANES];
     memcpy(a, v, sizeof a);
-    return ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]));
+    const double *o = a + first;
+    return ((o[0] + o[4]) + (o[2] + o[6])) + ((o[1] + o[5]) + (o[3] + o[7]));
+}
+
+KELVIN_INLINE double kelvin_add_lanes(const kelvin_vec *v)
+{
+    return kelvin_add_octet(v, 0) + kelvin_add_octet(v, KELVIN_OCTET);
 }
 
 #endif

@@ -6,24 +6,27 @@
 #include <igabem/kelvin.h>
 
 #include <math.h>
+#include <stdbool.h>
 
 /* Sums kept: W, W_X, W_Y, W_Z, or W_Z, W_XY, W_XZ, W_YZ, W_ZZ. */
 enum { MOST_SUMS = 5 };
 
-/* Adds the nodes n->q to the sums, spaced by `step` in q where that varies. A derivative multiplies
- * the integrand by i C, i C S, C^2. */
+/* Adds the nodes n->q in the lanes `inside` to the sums, each times *weight unless that is NULL. A
+ * derivative multiplies the integrand by i C, i C S, C^2. */
 KELVIN_INLINE void add_nodes(const struct kelvin_wave_points *p, struct kelvin_nodes *n,
-                             const kelvin_vec *step, enum kelvin_kind kind, kelvin_vec *sum)
+                             const kelvin_bits *inside, const kelvin_vec *weight,
+                             enum kelvin_kind kind, kelvin_vec *sum)
 {
     kelvin_vec size, sine, cosine, floor = {0};
     kelvin_place_nodes(p, kind, KELVIN_FULL, n);
     floor -= 700;
     kelvin_vec exponent = KELVIN_MAX(n->f.re, floor);
     kelvin_vexp(&exponent, &size);
+    size = (kelvin_vec)((kelvin_bits)size & *inside);
     kelvin_vsincos(&n->f.im, &sine, &cosine);
     struct kelvin_complex C = n->C, C2 = n->C2, CS = n->CS, g;
-    if (step)
-        size *= *step;
+    if (weight)
+        size *= *weight;
     /* g = e^f C dv/dq. */
     g.re = size * cosine;
     g.im = size * sine;
@@ -46,61 +49,118 @@ KELVIN_INLINE void add_nodes(const struct kelvin_wave_points *p, struct kelvin_n
     }
 }
 
-/* Trapezoid sums of one point over one window with q = p, in whole vectors of nodes. */
-KELVIN_INLINE void add_window(const struct kelvin_wave_points *p, double low, double step,
-                              long count, enum kelvin_kind kind, kelvin_vec *sum)
+/* One window of one of the points in hand. */
+struct job {
+    size_t point;
+    double low, step;
+    int count; /* a multiple of 8 */
+    bool curved;
+};
+
+/* Two numbers, one in the lower and one in the upper eight lanes. */
+KELVIN_INLINE void put_side_by_side(double a, double b, kelvin_vec *v)
 {
-    kelvin_vec index = {0, 1, 2, 3, 4, 5, 6, 7};
-    for (long k = 0; k < count; k += KELVIN_LANES) {
-        struct kelvin_nodes nodes;
-        nodes.q = low + step * (index + (double)k);
-        add_nodes(p, &nodes, NULL, kind, sum);
-    }
+    const kelvin_bits lower = {~UINT64_C(0), ~UINT64_C(0), ~UINT64_C(0), ~UINT64_C(0),
+                               ~UINT64_C(0), ~UINT64_C(0), ~UINT64_C(0), ~UINT64_C(0)};
+    kelvin_vec zero = {0}, va = zero + a, vb = zero + b;
+    *v = KELVIN_SELECT(lower, va, vb);
 }
 
-/* The same with q = sinh p. */
-KELVIN_INLINE void add_curved_window(const struct kelvin_wave_points *p, double low, double step,
-                                     long count, enum kelvin_kind kind, kelvin_vec *sum)
+/* Trapezoid sums over two windows side by side, b's count >= a's. */
+KELVIN_INLINE void add_windows(const struct kelvin_wave_points *points, const struct job *a,
+                               const struct job *b, enum kelvin_kind kind, kelvin_vec *sum)
 {
-    kelvin_vec index = {0, 1, 2, 3, 4, 5, 6, 7};
-    for (long k = 0; k < count; k += KELVIN_LANES) {
+    const kelvin_vec index = {0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7};
+    struct kelvin_wave_points p;
+    kelvin_vec low, step, count;
+    p.e2 = points->e2;
+    put_side_by_side(points->x[a->point], points->x[b->point], &p.x);
+    put_side_by_side(points->y[a->point], points->y[b->point], &p.y);
+    put_side_by_side(points->z[a->point], points->z[b->point], &p.z);
+    put_side_by_side(a->low, b->low, &low);
+    put_side_by_side(a->step, b->step, &step);
+    put_side_by_side(a->count, b->count, &count);
+    for (int k = 0; k < b->count; k += KELVIN_OCTET) {
         struct kelvin_nodes nodes;
-        kelvin_vec up = low + step * (index + (double)k), down = -up;
-        kelvin_vexp(&up, &up);
+        kelvin_vec place = index + (double)k;
+        kelvin_bits inside = KELVIN_LESS(place, count);
+        nodes.q = low + step * place;
+        if (!b->curved) {
+            add_nodes(&p, &nodes, &inside, NULL, kind, sum);
+            continue;
+        }
+        kelvin_vec up, down = -nodes.q;
+        kelvin_vexp(&nodes.q, &up);
         kelvin_vexp(&down, &down);
         kelvin_vec slope = 0.5 * (up + down);
         nodes.q = 0.5 * (up - down);
-        add_nodes(p, &nodes, &slope, kind, sum);
+        add_nodes(&p, &nodes, &inside, &slope, kind, sum);
     }
 }
 
-/* The sums for up to eight points with x > 0, y >= 0. */
+KELVIN_INLINE void add_job(const struct job *job, const kelvin_vec *sum, int first,
+                           double (*out)[MOST_SUMS])
+{
+    for (int k = 0; k < MOST_SUMS; k++)
+        out[job->point][k] += 4 * job->step * kelvin_add_octet(&sum[k], first);
+}
+
+/* Sorted by curved and count, so that neighbours take the same time. */
+KELVIN_INLINE void queue_job(struct job *job, int n, const struct job *new)
+{
+    int at = n, key = new->count + (new->curved << 24);
+    for (; at > 0 && job[at - 1].count + (job[at - 1].curved << 24) > key; at--)
+        job[at] = job[at - 1];
+    job[at] = *new;
+}
+
+/* The jobs of the point in the given lane of `windows`. */
+KELVIN_INLINE int queue_point(const struct kelvin_windows *windows, int lane, size_t point,
+                              struct job *job, int n)
+{
+    for (int part = 0; part < 2; part++) {
+        const struct kelvin_window *w = &windows->part[part];
+        double low = w->low[lane], length = w->high[lane] - low;
+        if (!(length > 0))
+            continue;
+        int count = ((int)(length / w->step[lane]) + KELVIN_OCTET) & -KELVIN_OCTET;
+        struct job new = {point, low, length / (count - 1), count, windows->curved[lane] != 0};
+        queue_job(job, n++, &new);
+    }
+    return n;
+}
+
+/* Fewer points than this are probed one by one. */
+enum { FEW = 3 };
+
+/* The sums for up to sixteen points with x > 0, y >= 0. */
 KELVIN_INLINE void wave_of_lanes(const struct kelvin_wave_points *points, size_t n,
                                  enum kelvin_kind kind, double (*out)[MOST_SUMS])
 {
+    struct job job[2 * KELVIN_LANES];
     struct kelvin_windows windows;
-    kelvin_find_windows(points, kind, &windows);
-    for (size_t i = 0; i < n; i++) {
-        kelvin_vec zero = {0};
-        struct kelvin_wave_points p = {zero + points->x[i], zero + points->y[i],
-                                       zero + points->z[i], points->e2};
-        for (int k = 0; k < MOST_SUMS; k++)
-            out[i][k] = 0;
-        for (int part = 0; part < 2; part++) {
-            struct kelvin_window *w = &windows.part[part];
-            double low = w->low[i], length = w->high[i] - low;
-            if (!(length > 0))
-                continue;
-            kelvin_vec sum[MOST_SUMS] = {{0}};
-            long count = ((long)(length / w->step[i]) + KELVIN_LANES) & -KELVIN_LANES;
-            double step = length / (double)(count - 1);
-            if (windows.curved[i])
-                add_curved_window(&p, low, step, count, kind, sum);
-            else
-                add_window(&p, low, step, count, kind, sum);
-            for (int k = 0; k < MOST_SUMS; k++)
-                out[i][k] += 4 * step * kelvin_add_lanes(&sum[k]);
+    int jobs = 0;
+    memset(out, 0, n * sizeof *out);
+    if (n < FEW)
+        for (size_t i = 0; i < n; i++) {
+            kelvin_vec zero = {0};
+            struct kelvin_wave_points p = {zero + points->x[i], zero + points->y[i],
+                                           zero + points->z[i], points->e2};
+            kelvin_find_windows(&p, 1, kind, &windows);
+            jobs = queue_point(&windows, 0, i, job, jobs);
         }
+    else {
+        kelvin_find_windows(points, 0, kind, &windows);
+        for (size_t i = 0; i < n; i++)
+            jobs = queue_point(&windows, (int)i, i, job, jobs);
+    }
+    for (int i = 0; i < jobs; i++) {
+        kelvin_vec sum[MOST_SUMS] = {{0}};
+        bool pair = i + 1 < jobs && job[i].curved == job[i + 1].curved;
+        add_windows(points, &job[i], &job[i + pair], kind, sum);
+        add_job(&job[i], sum, 0, out);
+        if (pair)
+            add_job(&job[++i], sum, KELVIN_OCTET, out);
     }
 }
 

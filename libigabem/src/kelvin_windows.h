@@ -1,5 +1,5 @@
 /* Which parts of the contour of kelvin_contour.h count, and the step of the trapezoid rule on them,
- * for eight points at once.
+ * for sixteen points at once.
  *
  * Kept is where the level Re f + weight ln(1 + 2 q^2) exceeds -KELVIN_CUT; |C|^3 bounds every
  * weight of value and gradient (5 for second derivatives). The level falls to both sides of the
@@ -91,37 +91,6 @@ KELVIN_INLINE void kelvin_demand_between(const struct kelvin_probe *from,
     kelvin_demand(to, &here);
     *demand = KELVIN_MAX(*demand, here);
 }
-/* A range of probes in one direction from a stationary point. */
-struct kelvin_range {
-    kelvin_vec last, demand;
-};
-
-/* Probes at the given fractions of *reach, outwards from *start. */
-KELVIN_INLINE void kelvin_probe_outwards(const struct kelvin_wave_points *p,
-                                         const kelvin_bits *curved,
-                                         const struct kelvin_probe *start, const kelvin_vec *reach,
-                                         const double *fraction, int probes, enum kelvin_kind kind,
-                                         struct kelvin_range *seen)
-{
-    struct kelvin_probe before = *start, now;
-    kelvin_vec zero = {0};
-    kelvin_demand(&before, &seen->demand);
-    seen->last = start->q;
-    for (int k = 0; k < probes; k++, before = now) {
-        kelvin_vec q = start->q + *reach * fraction[k];
-        kelvin_probe_at(p, curved, &q, kind, &now);
-        kelvin_demand_between(&before, &now, &seen->demand);
-        /* Half way between where the chord crosses the cut and the outer end: the level is concave.
-         */
-        kelvin_bits counts = KELVIN_LESS(zero, now.above);
-        kelvin_bits leaves = KELVIN_LESS(zero, before.above) & ~counts;
-        kelvin_vec crossing =
-            before.q + (q - before.q) * (before.above / (before.above - now.above));
-        seen->last = KELVIN_SELECT(leaves, 0.5 * (crossing + q), seen->last);
-        seen->last = KELVIN_SELECT(counts, q, seen->last);
-    }
-}
-
 /* Stationary points of the phase in q: t = (x -+ sqrt(x^2 - 8 y^2))/(4 y), or the real part of the
  * pair; q = t/sqrt(2 (1 + sqrt(1 + t^2))). */
 struct kelvin_saddles {
@@ -223,6 +192,115 @@ KELVIN_INLINE void kelvin_bound_reach(const struct kelvin_wave_points *p,
     reach->between = KELVIN_MAX(far, s->q1 + least);
 }
 
+/* A range of probes in one direction from a stationary point. */
+struct kelvin_range {
+    kelvin_vec last, demand;
+};
+
+KELVIN_INLINE void kelvin_look_outwards(const struct kelvin_probe *start,
+                                        const struct kelvin_probe *probe, int probes,
+                                        struct kelvin_range *seen)
+{
+    const struct kelvin_probe *before = start;
+    kelvin_vec zero = {0};
+    kelvin_demand(start, &seen->demand);
+    seen->last = start->q;
+    for (int k = 0; k < probes; before = &probe[k++]) {
+        const struct kelvin_probe *now = &probe[k];
+        kelvin_demand_between(before, now, &seen->demand);
+        /* Half way between where the chord crosses the cut and the outer end: the level is concave.
+         */
+        kelvin_bits counts = KELVIN_LESS(zero, now->above);
+        kelvin_bits leaves = KELVIN_LESS(zero, before->above) & ~counts;
+        kelvin_vec crossing =
+            before->q + (now->q - before->q) * (before->above / (before->above - now->above));
+        seen->last = KELVIN_SELECT(leaves, 0.5 * (crossing + now->q), seen->last);
+        seen->last = KELVIN_SELECT(counts, now->q, seen->last);
+    }
+}
+
+/* Probes at the stationary points and outwards from them: to the left of q1, and to the right of q2
+ * if it counts or if the pair is complex, of q1 otherwise. */
+enum { KELVIN_LEFT = 4, KELVIN_RIGHT = 5 };
+static const double kelvin_left[KELVIN_LEFT] = {0.2, 0.42, 0.7, 1};
+static const double kelvin_right[KELVIN_RIGHT] = {0.12, 0.28, 0.48, 0.72, 1};
+
+struct kelvin_probes {
+    struct kelvin_probe q1, q2, left[KELVIN_LEFT], right[KELVIN_RIGHT];
+    kelvin_bits both, single; /* both stationary points count; only q1 does */
+};
+
+KELVIN_INLINE void kelvin_sort_out(const struct kelvin_saddles *s, struct kelvin_probes *probes)
+{
+    kelvin_vec zero = {0};
+    probes->both = s->real & KELVIN_LESS(zero, probes->q2.above);
+    probes->single = s->real & ~probes->both;
+}
+
+/* Of sixteen points. */
+KELVIN_INLINE void kelvin_probe_points(const struct kelvin_wave_points *p,
+                                       const struct kelvin_saddles *s,
+                                       const struct kelvin_reach *reach, const kelvin_bits *curved,
+                                       enum kelvin_kind kind, struct kelvin_probes *probes)
+{
+    kelvin_probe_at(p, curved, &s->q1, kind, &probes->q1);
+    kelvin_probe_at(p, curved, &s->q2, kind, &probes->q2);
+    kelvin_sort_out(s, probes);
+    kelvin_vec from = KELVIN_SELECT(probes->single, s->q1, s->q2);
+    kelvin_vec to = KELVIN_SELECT(probes->single, reach->between, reach->right);
+    for (int k = 0; k < KELVIN_LEFT; k++) {
+        kelvin_vec q = s->q1 + (reach->left - s->q1) * kelvin_left[k];
+        kelvin_probe_at(p, curved, &q, kind, &probes->left[k]);
+    }
+    for (int k = 0; k < KELVIN_RIGHT; k++) {
+        kelvin_vec q = from + (to - from) * kelvin_right[k];
+        kelvin_probe_at(p, curved, &q, kind, &probes->right[k]);
+    }
+}
+
+KELVIN_INLINE void kelvin_broadcast(const struct kelvin_probe *from, int lane,
+                                    struct kelvin_probe *to)
+{
+    kelvin_vec zero = {0};
+    to->q = zero + from->q[lane];
+    to->frequency = zero + from->frequency[lane];
+    to->curvature = zero + from->curvature[lane];
+    to->above = zero + from->above[lane];
+}
+
+/* The same probes of the one point that is in all lanes, all at once: both stationary points, the
+ * left, the right of q1 and the right of q2. */
+KELVIN_INLINE void kelvin_probe_point(const struct kelvin_wave_points *p,
+                                      const struct kelvin_saddles *s,
+                                      const struct kelvin_reach *reach, const kelvin_bits *curved,
+                                      enum kelvin_kind kind, struct kelvin_probes *probes)
+{
+    enum { INNER = 2 + KELVIN_LEFT, OUTER = INNER + KELVIN_RIGHT };
+    struct kelvin_probe all;
+    kelvin_vec from = s->q1, to = s->q1, part = {0};
+    from[1] = to[1] = s->q2[0];
+    for (int k = 0; k < KELVIN_LEFT; k++) {
+        to[2 + k] = reach->left[0];
+        part[2 + k] = kelvin_left[k];
+    }
+    for (int k = 0; k < KELVIN_RIGHT; k++) {
+        to[INNER + k] = reach->between[0];
+        from[OUTER + k] = s->q2[0];
+        to[OUTER + k] = reach->right[0];
+        part[INNER + k] = part[OUTER + k] = kelvin_right[k];
+    }
+    kelvin_vec q = from + (to - from) * part;
+    kelvin_probe_at(p, curved, &q, kind, &all);
+    kelvin_broadcast(&all, 0, &probes->q1);
+    kelvin_broadcast(&all, 1, &probes->q2);
+    kelvin_sort_out(s, probes);
+    int right = probes->single[0] ? INNER : OUTER;
+    for (int k = 0; k < KELVIN_LEFT; k++)
+        kelvin_broadcast(&all, 2 + k, &probes->left[k]);
+    for (int k = 0; k < KELVIN_RIGHT; k++)
+        kelvin_broadcast(&all, right + k, &probes->right[k]);
+}
+
 KELVIN_INLINE int kelvin_any(const kelvin_bits *mask)
 {
     uint64_t any = 0;
@@ -238,21 +316,21 @@ struct kelvin_dip {
 };
 
 KELVIN_INLINE void kelvin_find_dip(const struct kelvin_wave_points *p, const kelvin_bits *curved,
-                                   const struct kelvin_probe *at_q1,
-                                   const struct kelvin_probe *at_q2, const kelvin_bits *both,
-                                   enum kelvin_kind kind, struct kelvin_dip *dip)
+                                   const struct kelvin_probes *at, enum kelvin_kind kind,
+                                   struct kelvin_dip *dip)
 {
-    kelvin_vec zero = {0}, gap = at_q2->q - at_q1->q, room = p->x * gap * gap;
+    const kelvin_bits *both = &at->both;
+    kelvin_vec zero = {0}, gap = at->q2.q - at->q1.q, room = p->x * gap * gap;
     kelvin_bits deep = *both & KELVIN_LESS(zero + KELVIN_CUT, room);
-    *dip = (struct kelvin_dip){{0}, at_q1->q, at_q1->q, zero, zero};
+    *dip = (struct kelvin_dip){{0}, at->q1.q, at->q1.q, zero, zero};
     int probes = kelvin_any(&deep) ? 6 : kelvin_any(both) ? 2 : 0;
-    struct kelvin_probe before = *at_q1, now;
+    struct kelvin_probe before = at->q1, now;
     for (int k = 1; k <= probes; k++, before = now) {
-        kelvin_vec q = at_q1->q + gap * ((double)k / probes), demand = zero;
+        kelvin_vec q = at->q1.q + gap * ((double)k / probes), demand = zero;
         if (k < probes)
             kelvin_probe_at(p, curved, &q, kind, &now);
         else
-            now = *at_q2;
+            now = at->q2;
         kelvin_demand_between(&before, &now, &demand);
         demand = KELVIN_SELECT(*both, demand, zero);
         kelvin_bits below = *both & KELVIN_LESS(now.above, zero - 2);
@@ -289,36 +367,34 @@ KELVIN_INLINE void kelvin_p_of_q(const kelvin_bits *curved, kelvin_vec *q)
     *q = KELVIN_SELECT(*curved, p, *q);
 }
 
-/* The first holds the only window, or the one about q1 if the second is not empty. */
-KELVIN_INLINE void kelvin_find_windows(const struct kelvin_wave_points *p, enum kelvin_kind kind,
-                                       struct kelvin_windows *windows)
+/* The first holds the only window, or the one about q1 if the second is not empty. alone: the same
+ * point is in all lanes. */
+KELVIN_INLINE void kelvin_find_windows(const struct kelvin_wave_points *p, int alone,
+                                       enum kelvin_kind kind, struct kelvin_windows *windows)
 {
     struct kelvin_window *first = &windows->part[0], *second = &windows->part[1];
     struct kelvin_saddles s;
     struct kelvin_reach reach;
+    struct kelvin_probes probes;
     struct kelvin_range left, right;
-    struct kelvin_probe at_q1, at_q2, from;
-    static const double few[] = {0.2, 0.42, 0.7, 1}, many[] = {0.12, 0.28, 0.48, 0.72, 1};
+    struct kelvin_dip dip;
+    struct kelvin_probe from;
     kelvin_vec zero = {0};
     kelvin_find_saddles(p, &s);
     kelvin_bound_reach(p, &s, kind, &reach);
     kelvin_bits curved = KELVIN_LESS(reach.left, zero - KELVIN_LONG);
-    kelvin_probe_at(p, &curved, &s.q1, kind, &at_q1);
-    kelvin_probe_at(p, &curved, &s.q2, kind, &at_q2);
+    if (alone)
+        kelvin_probe_point(p, &s, &reach, &curved, kind, &probes);
+    else
+        kelvin_probe_points(p, &s, &reach, &curved, kind, &probes);
+    kelvin_look_outwards(&probes.q1, probes.left, KELVIN_LEFT, &left);
+    from.q = KELVIN_SELECT(probes.single, probes.q1.q, probes.q2.q);
+    from.above = KELVIN_SELECT(probes.single, probes.q1.above, probes.q2.above);
+    from.frequency = KELVIN_SELECT(probes.single, probes.q1.frequency, probes.q2.frequency);
+    from.curvature = KELVIN_SELECT(probes.single, probes.q1.curvature, probes.q2.curvature);
+    kelvin_look_outwards(&from, probes.right, KELVIN_RIGHT, &right);
+    kelvin_find_dip(p, &curved, &probes, kind, &dip);
 
-    kelvin_vec span = reach.left - s.q1;
-    kelvin_probe_outwards(p, &curved, &at_q1, &span, few, 4, kind, &left);
-    /* Outwards from q2 if it counts or if the pair is complex, from q1 otherwise. */
-    kelvin_bits both = s.real & KELVIN_LESS(zero, at_q2.above), single = s.real & ~both;
-    from.q = KELVIN_SELECT(single, s.q1, s.q2);
-    from.above = KELVIN_SELECT(single, at_q1.above, at_q2.above);
-    from.frequency = KELVIN_SELECT(single, at_q1.frequency, at_q2.frequency);
-    from.curvature = KELVIN_SELECT(single, at_q1.curvature, at_q2.curvature);
-    span = KELVIN_SELECT(single, reach.between - s.q1, reach.right - s.q2);
-    kelvin_probe_outwards(p, &curved, &from, &span, many, 5, kind, &right);
-
-    struct kelvin_dip dip;
-    kelvin_find_dip(p, &curved, &at_q1, &at_q2, &both, kind, &dip);
     kelvin_vec demand = KELVIN_MAX(left.demand, dip.demand_before);
     first->low = left.last;
     first->high = KELVIN_SELECT(dip.split, dip.from, right.last);
