@@ -6,11 +6,11 @@
  * transverse waves are -i x 2 w^2 next to w = 0 and the diverging ones have the same width next to
  * w = sqrt(x/4y). The trapezoid rule in p on the explicit contour
  *
- *     w = q + i kappa,   q = q(p) real,   kappa = (y (1 + 8 q^2 r) - 2 x q)/D,   r = sqrt(1 + q^2),
- *     D = 2.9 x + 7.6 z + 2.6 y + (13.3 y + 16.8 z) q^2 + 1.5/r^2.
+ *     w = q + i kappa,   q = q(p) real,   kappa = (y (1/r + 8 q^2 r) - 2 x q)/D,   r = sqrt(1 +
+ * q^2), D = 2.9 x + 7.6 z + 2.6 y + (13.3 y + 16.8 z) q^2 + 1.5/r^2.
  *
  * f is entire in v, so any such contour that ends in the valleys will do; the numbers of D are
- * those that needed the fewest nodes among points behind a hull. The numerator vanishes next to the
+ * those that needed the fewest nodes among points behind a hull. The numerator vanishes at the
  * stationary points of the phase at z = 0, where the contour crosses the real axis at about -+40
  * degrees, near the path of steepest descent; D > 0 keeps it smooth where they merge (the cusp x^2
  * = 8 y^2), leave the real axis (outside the wedge) or go to infinity (the track y = 0). With the
@@ -58,10 +58,11 @@ KELVIN_INLINE void kelvin_place_contour(const struct kelvin_wave_points *p, enum
     kelvin_vec q = n->q, x = p->x, y = p->y, z = p->z, square = q * q, r2 = 1 + square, rho;
     kelvin_vrsqrt_to(&r2, precision, &rho);
     kelvin_vec r = r2 * rho, y8q = 8 * (y * q);
-    kelvin_vec a = y + q * (y8q * r - 2 * x), da = y8q * (2 * r + square * rho) - 2 * x;
-    kelvin_vec outer = 13.3 * y + 16.8 * z, bump = 1.5 * (rho * rho);
+    kelvin_vec rho2 = rho * rho, a = y * rho + q * (y8q * r - 2 * x);
+    kelvin_vec da = y8q * (2 * r + rho * (square - 0.125 * rho2)) - 2 * x;
+    kelvin_vec outer = 13.3 * y + 16.8 * z, bump = 1.5 * rho2;
     kelvin_vec D = (2.9 * x + 7.6 * z + 2.6 * y) + outer * square + bump;
-    kelvin_vec dD = 2 * q * (outer - bump * (rho * rho));
+    kelvin_vec dD = 2 * q * (outer - bump * rho2);
     if (kind == KELVIN_FILTERED) {
         kelvin_vec extra = 2 * p->e2 * (1 + 8 * square * r2), weight = 7.6 + 16.8 * square;
         D += weight * extra;

@@ -169,15 +169,19 @@ KELVIN_INLINE void kelvin_bound_reach(const struct kelvin_wave_points *p,
     e = 0.4 * t_over_x;
     kelvin_sqrt(&e, &by_x);
 
-    /* Next to a stationary point: quadratic, or cubic where two merge. */
-    kelvin_vec square = 2 * T / s->c1, near;
+    /* Next to a stationary point: quadratic, or less where two merge. */
+    kelvin_vec square = 2 * T / s->c1, near, merged;
     kelvin_sqrt(&square, &near);
-    near = 1.4 * KELVIN_MIN(near, 1.3 * by_x + 0.5);
+    square = KELVIN_MAX(t_over_x, t_over_x * t_over_x);
+    kelvin_sqrt(&square, &merged);
+    kelvin_sqrt(&merged, &merged);
+    near = KELVIN_MIN(1.4 * near, 2 * merged);
     kelvin_vec least = 1e-3 * KELVIN_MIN(near, one);
 
     kelvin_vec far = KELVIN_MIN(by_x, by_y);
     far = KELVIN_MIN(far, by_z);
-    reach->left = KELVIN_MIN(-far, s->q1 - least);
+    reach->left = KELVIN_MAX(-far, s->q1 - near);
+    reach->left = KELVIN_MIN(reach->left, s->q1 - least);
 
     /* Beyond q2, where y q^4 has to win over x q^2. */
     e = x / y + 0.6 * root_y;

@@ -107,6 +107,21 @@ static void long_batch(void)
     }
 }
 
+/* Where the stationary points are sharpest: numbers, no larger than waves that far away can be. */
+static void distant_points(void)
+{
+    static const double place[][3] = {
+        {-2.35264e7, 3.8516e6, -3.03839}, {-1e9, 2e8, -1},    {-1e9, 1e8, 0},
+        {-1e9, 3.53553e8, -1e-3},         {-1e7, 2e3, -1e-4}, {-1e9, 1e9, -1e9}};
+    for (size_t i = 0; i < sizeof place / sizeof place[0]; i++) {
+        const double *P = place[i];
+        double W[4];
+        CU_ASSERT_EQUAL(igabem_kelvin_wave(1, P, P + 1, P + 2, W, W + 1, W + 2, W + 3), IGABEM_OK);
+        for (int k = 0; k < 4; k++)
+            CU_ASSERT(fabs(W[k]) < 0.1);
+    }
+}
+
 static void refusals(void)
 {
     const double zero = 0, one = 1, minus = -1, bad = NAN, far = 2e9;
@@ -314,9 +329,9 @@ static void amplitudes(void)
 }
 
 static const struct check_case cases[] = {
-    {"parts add up", parts_add_up}, {"derivatives", derivatives}, {"long batch", long_batch},
-    {"refusals", refusals},         {"filter", filter},           {"resistances", resistances},
-    {"amplitudes", amplitudes},
+    {"parts add up", parts_add_up}, {"derivatives", derivatives},       {"long batch", long_batch},
+    {"refusals", refusals},         {"distant points", distant_points}, {"filter", filter},
+    {"resistances", resistances},   {"amplitudes", amplitudes},
 };
 
 CHECK_MAIN("kelvin green", cases)
