@@ -57,7 +57,7 @@ static void test_all_fields(void)
         "line_term: off, cutoff_factor: 1.5,\n"
         "         cutoff_angle: 5, stem_limit: 0.4, stern_length: 0.3, stern_blend: 0.02,\n"
         "         spectrum_limit: 30, tolerance: 1e-4}\n"
-        "constraints: {displacement: 0.02, breadth: 0.2, entrance: 1.25}\n"
+        "constraints: {displacement: 0.02, breadth: 0.2, entrance: 1.25, pressure: 1.1}\n"
         "search: {initial: 12, iterations: 6, design: sobol, strategy: global, seed: 3}\n"
         "verification: {refine: 3, froude: [0.28, 0.41]}\n",
         &c));
@@ -79,6 +79,7 @@ static void test_all_fields(void)
     CU_ASSERT_EQUAL(c.displacement, 0.02);
     CU_ASSERT_EQUAL(c.breadth, 0.2);
     CU_ASSERT_EQUAL(c.entrance, 1.25);
+    CU_ASSERT_EQUAL(c.pressure, 1.1);
     CU_ASSERT_EQUAL(c.design, BAYESOPT_DESIGN_SOBOL);
     CU_ASSERT_EQUAL(c.strategy, BAYESOPT_STRATEGY_GLOBAL);
     CU_ASSERT_EQUAL(c.search_seed, 3);

@@ -3,6 +3,7 @@
 #include "check.h"
 #include "design.h"
 #include "entrance.h"
+#include "evaluate.h"
 #include "limits.h"
 #include "parent.h"
 #include "stations.h"
@@ -241,12 +242,28 @@ static void test_entrance(void)
     nurbs_grid_free(grid);
 }
 
+static void test_allowed_designs(void)
+{
+    struct evaluation parent = {.id = 0, .cw = 2, .cw_pressure = 3};
+    struct evaluation better = {.id = 5, .cw = 1, .cw_pressure = 3.2};
+    CU_ASSERT_TRUE(evaluation_allowed(&better, &parent, NAN));
+    CU_ASSERT_TRUE(evaluation_allowed(&better, &parent, 1.1));
+    CU_ASSERT_FALSE(evaluation_allowed(&better, &parent, 1));
+    CU_ASSERT_TRUE(evaluation_allowed(&parent, &parent, 0.5));
+    better.failed = true;
+    CU_ASSERT_FALSE(evaluation_allowed(&better, &parent, NAN));
+    parent.cw_pressure = better.cw_pressure = NAN;
+    better.failed = false;
+    CU_ASSERT_FALSE(evaluation_allowed(&better, &parent, 1));
+}
+
 static const struct check_case cases[] = {
     {"displacement of a grid converges", test_volume_converges},
     {"displacement of a box is exact", test_volume_cut},
     {"limits from the grid", test_limits_of_grid},
     {"limits from built hulls", test_limits_of_hull},
     {"steepest waterline", test_entrance},
+    {"designs that can be the best", test_allowed_designs},
     {"grid parameters keep kinks", test_parameters},
     {"sections of the Wigley hull", test_stations},
     {"from a grid to the light patch", test_design},

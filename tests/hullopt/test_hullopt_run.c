@@ -250,6 +250,13 @@ static void test_bad_settings(void)
              "hull: %s\nshape: " EXAMPLES_DIR "/wigley_shape.yaml\nflow: {froude: 0.3}\n", WIGLEY);
     runner_write(&runner, "bad.yaml", text);
     check_refusal(run, 1, "grid.sections is missing");
+    snprintf(text, sizeof text,
+             "hull: %s\nshape: " EXAMPLES_DIR "/wigley_shape.yaml\nflow: {froude: 0.3}\n"
+             "grid: {sections: 21, girth: 9}\nsolver: {formulation: hogner}\n"
+             "constraints: {pressure: 1}\n",
+             WIGLEY);
+    runner_write(&runner, "bad.yaml", text);
+    check_refusal(run, 1, "constraints.pressure needs a resistance by pressure");
     const char *const missing[] = {"run", "/nonexistent.yaml", "--out", fresh, NULL};
     check_refusal(missing, 1, "/nonexistent.yaml: No such file");
 }

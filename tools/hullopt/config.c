@@ -113,6 +113,7 @@ static bool read_latent(const char *path, const struct config_file *file, struct
          &config->displacement},
         {"constraints.breadth", file->constraints.breadth, 0, 1, true, &config->breadth},
         {"constraints.entrance", file->constraints.entrance, 1, 10, true, &config->entrance},
+        {"constraints.pressure", file->constraints.pressure, 0, 10, true, &config->pressure},
     };
     size_t seed = 1;
     if (!read_count(path, "grid.sections", file->grid.sections, 4, 2000, &config->sections) ||
@@ -264,6 +265,7 @@ static void set_defaults(struct config *config)
     config->displacement = NAN;
     config->breadth = NAN;
     config->entrance = NAN;
+    config->pressure = NAN;
     config->initial = 200;
     config->iterations = 100;
     config->design = BAYESOPT_DESIGN_STLBO;
@@ -328,6 +330,7 @@ static void write_settings(FILE *out, const struct config *c)
     write_limit(out, "constraints.displacement", c->displacement);
     write_limit(out, "constraints.breadth", c->breadth);
     write_limit(out, "constraints.entrance", c->entrance);
+    write_limit(out, "constraints.pressure", c->pressure);
     write_line(out, "flow.froude", s->froude);
     write_line(out, "flow.gravity", s->gravity);
     write_line(out, "flow.density", s->density);

@@ -49,6 +49,7 @@ static const cyaml_schema_field_t constraints[] = {
     OPTIONAL(displacement, config_constraints),
     OPTIONAL(breadth, config_constraints),
     OPTIONAL(entrance, config_constraints),
+    OPTIONAL(pressure, config_constraints),
     CYAML_FIELD_END,
 };
 

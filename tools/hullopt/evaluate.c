@@ -27,6 +27,14 @@ void evaluation_free(struct evaluation *evaluation)
     *evaluation = (struct evaluation){0};
 }
 
+bool evaluation_allowed(const struct evaluation *evaluation, const struct evaluation *parent,
+                        double pressure)
+{
+    return !evaluation->failed &&
+           (isnan(pressure) || evaluation->cw_pressure <= pressure * parent->cw_pressure ||
+            evaluation->id == parent->id);
+}
+
 static bool make_hull(const struct parent *parent, const struct design *design, igabem_hull **hull,
                       struct failure *failure)
 {
@@ -58,6 +66,11 @@ bool evaluate_build(struct evaluator *evaluator, const double *u, struct design 
     return true;
 }
 
+static bool has_pressure(igabem_formulation formulation)
+{
+    return formulation == IGABEM_NEUMANN_KELVIN || formulation == IGABEM_NEUMANN_KELVIN_STERN;
+}
+
 bool evaluator_create(const struct config *config, const struct parent *parent,
                       const struct latent *latent, struct evaluator *evaluator)
 {
@@ -81,6 +94,10 @@ bool evaluator_create(const struct config *config, const struct parent *parent,
     bool ok = igabem_options_freeze(hull, &evaluator->solver) == IGABEM_OK;
     if (!ok)
         cli_fail("%s: %s", config->path, igabem_last_error());
+    else if (!isnan(config->pressure) && !has_pressure(evaluator->solver.formulation))
+        ok = cli_fail("%s: constraints.pressure needs a resistance by pressure, which %s has not",
+                      config->path,
+                      igabem_formulation_name(evaluator->solver.formulation)) == CLI_OK;
     if (ok && latent) {
         evaluator->scratch = malloc(latent->coordinates * sizeof *evaluator->scratch);
         ok = evaluator->scratch != NULL;

@@ -25,6 +25,11 @@ struct evaluation {
 bool evaluation_create(size_t modes, struct evaluation *evaluation);
 void evaluation_free(struct evaluation *evaluation);
 
+/* Whether a design can be the best: evaluated, and with a pressure resistance of at most `pressure`
+ * (NAN: any) times the parent's. */
+bool evaluation_allowed(const struct evaluation *evaluation, const struct evaluation *parent,
+                        double pressure);
+
 struct evaluator {
     const struct parent *parent;
     const struct latent *latent;

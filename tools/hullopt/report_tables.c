@@ -64,13 +64,18 @@ static void entrance_row(FILE *out, const struct results *r)
                 ratio <= ENTRANCE_SLACK * most ? "kept" : "violated");
 }
 
-static void resistance_row(FILE *out, const char *label, double before, double after)
+/* most: largest allowed ratio, NAN: any. */
+static void resistance_row(FILE *out, const char *label, double before, double after, double most)
 {
     fprintf(out, "<tr class=\"total\"><td>%s</td><td>10⁻³</td>", label);
     cell(out, "%.4f", 1e3 * before);
     cell(out, "%.4f", 1e3 * after);
     cell(out, "%+.1f %%", 100 * (after / before - 1));
-    fputs("<td></td></tr>\n", out);
+    if (isnan(most))
+        fputs("<td></td></tr>\n", out);
+    else
+        fprintf(out, "<td>≤ %+g %%, %s</td></tr>\n", 100 * (most - 1),
+                after <= most * before ? "kept" : "violated");
 }
 
 void report_particulars(FILE *out, const struct results *r)
@@ -82,9 +87,9 @@ void report_particulars(FILE *out, const struct results *r)
           "<th>limit</th></tr></thead><tbody>\n",
           out);
     resistance_row(out, "Wave resistance coefficient, Kochin function", r->baseline->cw,
-                   r->best->cw);
+                   r->best->cw, NAN);
     resistance_row(out, "Wave resistance coefficient, pressure", r->baseline->cw_pressure,
-                   r->best->cw_pressure);
+                   r->best->cw_pressure, results_number(r->settings, "constraints.pressure"));
     displacement_row(out, r);
     breadth_row(out, r);
     entrance_row(out, r);

@@ -53,12 +53,13 @@ static bool load_parent(struct store *store, struct results *r)
 
 static void find_best(struct results *r)
 {
+    double pressure = results_number(r->settings, "constraints.pressure");
     for (size_t i = 0; i < r->n; i++) {
         const struct evaluation *e = &r->evaluations[i];
         r->failed += e->failed;
         if (e->id == 0)
             r->baseline = e;
-        if (!e->failed && (!r->best || e->cw < r->best->cw))
+        if (evaluation_allowed(e, r->evaluations, pressure) && (!r->best || e->cw < r->best->cw))
             r->best = e;
     }
 }

@@ -59,6 +59,8 @@ bool search_create(const struct config *config, struct evaluator *evaluator, con
     options.n_input_constraints = count_limits(config);
     options.input_constraint = known_limits;
     options.input_data = search;
+    options.n_constraints = isnan(config->pressure) ? 0u : 1u;
+    options.constraint_upper = &config->pressure;
     if (bayesopt_create(latent->modes, latent->lower, latent->upper, &options, &search->bo) !=
             BAYESOPT_OK ||
         bayesopt_open_store(search->bo, path) != BAYESOPT_OK) {
@@ -86,7 +88,7 @@ static bool told(const struct search *search, bayesopt_status status)
 }
 
 /* The parent is u = 0: row 0 of the record, and a point that the search is told. */
-static bool evaluate_parent(struct search *search, double *cw)
+static bool evaluate_parent(struct search *search)
 {
     size_t modes = search->evaluator->latent->modes;
     struct evaluation e;
@@ -103,10 +105,11 @@ static bool evaluate_parent(struct search *search, double *cw)
             ok = ok && store_put_evaluation(search->store, modes, &e);
         }
     }
+    search->parent = e;
+    search->parent.u = NULL;
+    const double ratio = 1, *constraints = isnan(search->config->pressure) ? NULL : &ratio;
     if (ok && bayesopt_count(search->bo) == 0)
-        ok = told(search, bayesopt_tell_point(search->bo, e.u, e.cw, NULL));
-    if (ok)
-        *cw = e.cw;
+        ok = told(search, bayesopt_tell_point(search->bo, e.u, e.cw, constraints));
     if (found >= 0)
         evaluation_free(&e);
     return ok;
@@ -114,8 +117,10 @@ static bool evaluate_parent(struct search *search, double *cw)
 
 static bool tell(struct search *search, const struct evaluation *e)
 {
+    const double ratio = e->cw_pressure / search->parent.cw_pressure;
+    const double *constraints = isnan(search->config->pressure) ? NULL : &ratio;
     if (!e->failed)
-        return told(search, bayesopt_tell(search->bo, e->id, e->cw, NULL));
+        return told(search, bayesopt_tell(search->bo, e->id, e->cw, constraints));
     char reason[STAGE_SIZE + REASON_SIZE + 2];
     snprintf(reason, sizeof reason, "%s: %s", e->stage, e->reason);
     return told(search, bayesopt_tell_failed(search->bo, e->id, reason));
@@ -176,10 +181,10 @@ static void show(struct cli_progress *progress, const struct search *search, siz
     cli_progress_update(progress, (double)done / (double)all, detail);
 }
 
-static bool loop(struct search *search, double *u, double parent)
+static bool loop(struct search *search, double *u)
 {
     struct cli_progress progress;
-    double best = parent;
+    double parent = search->parent.cw, best = parent;
     size_t done = 0, failed = 0;
     bayesopt_point point;
     for (size_t i = 0; i < bayesopt_count(search->bo); i++) {
@@ -187,7 +192,7 @@ static bool loop(struct search *search, double *u, double parent)
             continue;
         done += point.state != BAYESOPT_STATE_PENDING;
         failed += point.state == BAYESOPT_STATE_FAILED;
-        if (point.state == BAYESOPT_STATE_DONE)
+        if (point.feasible)
             best = fmin(best, point.f);
     }
     cli_progress_start(&progress, "search");
@@ -206,7 +211,8 @@ static bool loop(struct search *search, double *u, double parent)
         if (ok) {
             done++;
             failed += e.failed;
-            best = e.failed ? best : fmin(best, e.cw);
+            if (evaluation_allowed(&e, &search->parent, search->config->pressure))
+                best = fmin(best, e.cw);
             evaluation_free(&e);
         }
     }
@@ -217,8 +223,7 @@ static bool loop(struct search *search, double *u, double parent)
 bool search_run(struct search *search)
 {
     double *u = malloc(search->evaluator->latent->modes * sizeof *u);
-    double parent;
-    bool ok = u && evaluate_parent(search, &parent) && loop(search, u, parent);
+    bool ok = u && evaluate_parent(search) && loop(search, u);
     free(u);
     return ok;
 }

@@ -16,6 +16,7 @@ struct search {
     struct limits limits;
     struct entrance entrance;
     bayesopt *bo;
+    struct evaluation parent; /* without its latent point */
 };
 
 /* The optimisation of a run on its own store at path (created or resumed), search->store not yet

@@ -74,6 +74,14 @@ static json_t *constraints(const struct results *r)
     put_flag(entrance, "satisfied",
              isnan(most) || r->nu_s[1] <= ENTRANCE_SLACK * most * r->nu_s[0]);
     json_object_set_new(o, "entrance", entrance);
+    json_t *pressure = json_object();
+    double ratio = r->best->cw_pressure / r->baseline->cw_pressure;
+    most = results_number(r->settings, "constraints.pressure");
+    put(pressure, "allowed", most);
+    put(pressure, "before", r->baseline->cw_pressure);
+    put(pressure, "after", r->best->cw_pressure);
+    put_flag(pressure, "satisfied", isnan(most) || ratio <= most);
+    json_object_set_new(o, "pressure", pressure);
     return o;
 }
 
