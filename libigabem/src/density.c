@@ -107,8 +107,24 @@ static nurbs_status elevated_surface(const nurbs_surface *hull, int degree, nurb
     return status;
 }
 
-/* Clamped knots on uniform spans, their breaks made knots of the surface. */
-static nurbs_status uniform_knots(struct density_patch *patch, int d, int elements)
+/* Break k of m over [0,1]: uniform, or, where that would make the span at a waterline narrower than
+ * least, 1 - (1 - k/m)^p from the waterline on with a first span of that width. What changes within
+ * less than the filter's length of the still water is what the filter took out: collocation rows
+ * there only amplify it. */
+static double break_at(const struct density_patch *patch, int d, size_t k, size_t m, double least)
+{
+    double t = (double)k / (double)m;
+    int low = patch->hull.edge[2 * d] == HULL_EDGE_WATERLINE;
+    int high = patch->hull.edge[2 * d + 1] == HULL_EDGE_WATERLINE;
+    if (low == high || least * (double)m <= 1.0)
+        return t;
+    double power = log1p(-least) / log1p(-1.0 / (double)m);
+    return low ? 1.0 - pow(1.0 - t, power) : pow(t, power);
+}
+
+/* Clamped knots of its own, their breaks made knots of the surface. */
+static nurbs_status own_knots(struct density_patch *patch, int d, int elements,
+                              double waterline_span)
 {
     size_t p = (size_t)patch->degree[d], m = (size_t)elements;
     const double *domain = patch->hull.domain[d];
@@ -122,7 +138,8 @@ static nurbs_status uniform_knots(struct density_patch *patch, int d, int elemen
         knots[m + p + k] = domain[1];
     }
     for (size_t k = 1; k < m; k++)
-        knots[p + k] = domain[0] + (domain[1] - domain[0]) * (double)k / (double)m;
+        knots[p + k] =
+            domain[0] + (domain[1] - domain[0]) * break_at(patch, d, k, m, waterline_span);
     return insert_missing(&patch->surface, d, knots + p + 1, m - 1);
 }
 
@@ -235,7 +252,7 @@ static nurbs_status shape_and_basis(const struct hull_patch *hull, const struct 
     }
     for (int d = 0; d < 2 && status == NURBS_OK; d++)
         if (rule->elements[d] > 0)
-            status = uniform_knots(patch, d, rule->elements[d]);
+            status = own_knots(patch, d, rule->elements[d], rule->waterline_span);
     for (int d = 0; d < 2 && status == NURBS_OK; d++)
         status = find_breaks(patch, d);
     patch->hull.surface = patch->surface;

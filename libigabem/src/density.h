@@ -1,9 +1,9 @@
 /* The space of the source density on the patches of a hull, unknowns numbered patch by patch, u
  * slow and v fast, one collocation point per unknown. By default the basis is the hull's own: its
  * NURBS, elevated to the least degree asked for and refined. Alternatively it is a polynomial
- * spline of the same degree on uniform knots, over the parameters of the hull but free of its
- * knots: knots that follow the shape from one design to the next make the error of the resistance
- * follow too. */
+ * spline of the same degree on uniform knots (graded where they would crowd at the waterline), over
+ * the parameters of the hull but free of its knots: knots that follow the shape from one design to
+ * the next make the error of the resistance follow too. */
 #ifndef DENSITY_H
 #define DENSITY_H
 
@@ -42,6 +42,7 @@ struct density_rule {
     int degree;      /* least */
     int refine[2];   /* parts of each span of the hull's knots, >= 1 */
     int elements[2]; /* uniform spans, 0: the hull's own, refined; both 0: the hull's own basis */
+    double waterline_span; /* least width of own spans at the waterline, share of the range */
 };
 
 /* Creates the space; copies what it needs of the hull. */

@@ -112,6 +112,7 @@ igabem_status igabem_forces_compute(const igabem_solution *solution, igabem_forc
                               .trim = NAN,
                               .condition = solution->condition,
                               .seconds = solution->seconds,
+                              .memory = solution->memory,
                               .dofs = solution->density->n};
     struct kochin_resistance far;
     igabem_status status = kochin_resistance(solution, &far);

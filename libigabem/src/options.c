@@ -44,6 +44,7 @@ void igabem_options_init(igabem_options *options)
                                 .refine = 1,
                                 .elements_u = -1,
                                 .elements_v = -1,
+                                .waterline_span = 0.1,
                                 .degree = 3,
                                 .line_term = 1,
                                 .cutoff_angle = NAN,
@@ -94,6 +95,8 @@ static igabem_status check(const igabem_options *options)
         status = check_range("elements_v", options->elements_v, -1, 100000);
     if (status == IGABEM_OK)
         status = check_range("degree", options->degree, 1, 9);
+    if (status == IGABEM_OK)
+        status = check_range("waterline_span", options->waterline_span, 0.0, 0.5);
     if (status == IGABEM_OK)
         status = check_range("tolerance", options->tolerance, 1e-12, 1e-2);
     if (status == IGABEM_OK && !isnan(options->stern_length))

@@ -17,6 +17,7 @@ struct igabem_solution {
     double *sigma_upper; /* [n] with 1.15 */
     double condition;    /* 1-norm estimate, NAN without a solve */
     double seconds;
+    double memory; /* bytes of influences and matrix */
 };
 
 /* chi = 1/(1 + (|nu_x|/nu_c)^4), the stem limiter of the line term. */

@@ -115,7 +115,8 @@ static igabem_status start_solution(const igabem_hull *hull, const igabem_option
     const struct density_rule rule = {
         .degree = used->degree,
         .refine = {used->refine, used->refine_v},
-        .elements = {used->elements_u * used->refine, used->elements_v * used->refine_v}};
+        .elements = {used->elements_u * used->refine, used->elements_v * used->refine_v},
+        .waterline_span = used->waterline_span};
     status = density_create(hull, &rule, &solution->density);
     if (status != IGABEM_OK)
         return status;
@@ -130,7 +131,8 @@ static void normal_flow(const igabem_solution *solution, double *values)
         values[i] = solution->speed * solution->density->normal[3 * i];
 }
 
-/* Local part, waterline and waves of one setting; wave[filters][n][3][n]. */
+/* Adds waterline and waves of one setting to wave[0][n][3][n]; the filters beyond the first start
+ * from the waterline alone. */
 static igabem_status wave_influence(const struct influence *influence,
                                     const igabem_solution *solution, const char *row,
                                     size_t filters, double *wave)
@@ -142,7 +144,6 @@ static igabem_status wave_influence(const struct influence *influence,
         cutoff[f] = sensitivity_factors[f] * options->cutoff_angle;
     struct line *line = NULL;
     igabem_status status = IGABEM_OK;
-    memset(wave, 0, filters * size * sizeof *wave);
     if (options->line_term)
         status = line_create(influence->density, influence->mesh, options->stem_limit, &line);
     if (status == IGABEM_OK && line)
@@ -194,8 +195,10 @@ static igabem_status solve_filters(struct system *system, igabem_solution *solut
     return status;
 }
 
+/* keep_local: another setting reads local after this one; else waterline and waves are added to it
+ * in place. */
 static igabem_status finish_solution(const struct influence *influence, const double *rankine,
-                                     const double *image, const double *local,
+                                     const double *image, double *local, int keep_local,
                                      igabem_solution *solution)
 {
     const struct density *density = influence->density;
@@ -209,8 +212,12 @@ static igabem_status finish_solution(const struct influence *influence, const do
     size_t filters = waves ? (options->sensitivity && isfinite(options->cutoff_angle) ? 3 : 1) : 0;
     double *weights = malloc(2 * n * sizeof *weights);
     char *row = malloc(n);
-    double *wave = waves ? malloc(filters * 3 * n * n * sizeof *wave) : NULL;
+    int in_place = waves && filters == 1 && !keep_local;
+    double *own = waves && !in_place ? calloc(filters * 3 * n * n, sizeof *own) : NULL;
+    double *wave = in_place ? local : own;
     igabem_status status = IGABEM_OK;
+    size_t arrays = 1u + (image != NULL) + (local != NULL) + (own ? filters : 0);
+    solution->memory = (double)((3 * arrays + 1) * n * n * sizeof(double));
     if (!weights || !row || (waves && !wave)) {
         status = no_memory(n);
         goto done;
@@ -218,7 +225,7 @@ static igabem_status finish_solution(const struct influence *influence, const do
     struct system system = {.influence = influence,
                             .rankine = rankine,
                             .image = image,
-                            .local = local,
+                            .local = in_place ? NULL : local,
                             .wave = wave,
                             .image_weight = weights,
                             .wave_weight = weights + n};
@@ -235,7 +242,7 @@ static igabem_status finish_solution(const struct influence *influence, const do
 done:
     free(weights);
     free(row);
-    free(wave);
+    free(own);
     return status;
 }
 
@@ -259,6 +266,17 @@ static igabem_status shared_local(const struct influence *influence, igabem_solu
     igabem_status status = influence_local(influence, k0, row, local);
     free(row);
     return status;
+}
+
+/* Whether a setting after number m has the same k0 and reads N. */
+static int local_used_later(igabem_solution **solutions, const size_t *member, size_t count,
+                            size_t m)
+{
+    for (size_t k = m + 1; k < count; k++)
+        if (needs_waves(&solutions[member[k]]->options) &&
+            solutions[member[k]]->k0 == solutions[member[m]]->k0)
+            return 1;
+    return 0;
 }
 
 /* Settings that share unknowns and quadrature: indices member[count]. */
@@ -302,8 +320,11 @@ static igabem_status solve_group(struct shared *shared, const size_t *member, si
             status = shared_local(influence, solutions, member, count, m, local);
             local_k0 = solution->k0;
         }
+        int keep = local_used_later(solutions, member, count, m);
         if (status == IGABEM_OK)
-            status = finish_solution(influence, rankine, image, local, solution);
+            status = finish_solution(influence, rankine, image, local, keep, solution);
+        if (!keep)
+            local_k0 = 0.0;
         solution->seconds = common + omp_get_wtime() - start;
         if (status == IGABEM_OK)
             status = report(shared, shared->done + 0.5 * per_setting);
@@ -319,8 +340,8 @@ static igabem_status solve_group(struct shared *shared, const size_t *member, si
 static int same_group(const igabem_options *a, const igabem_options *b)
 {
     return a->refine == b->refine && a->refine_v == b->refine_v && a->elements_u == b->elements_u &&
-           a->elements_v == b->elements_v && a->degree == b->degree &&
-           a->tolerance == b->tolerance && a->threads == b->threads;
+           a->elements_v == b->elements_v && a->waterline_span == b->waterline_span &&
+           a->degree == b->degree && a->tolerance == b->tolerance && a->threads == b->threads;
 }
 
 igabem_status igabem_solve_many(const igabem_hull *hull, size_t n, const igabem_options *options,

@@ -28,6 +28,7 @@ static json_t *options_json(const struct solve_result *result)
     json_object_set_new(json, "refine_v", json_integer(o->refine_v));
     json_object_set_new(json, "elements_u", json_integer(o->elements_u));
     json_object_set_new(json, "elements_v", json_integer(o->elements_v));
+    json_object_set_new(json, "waterline_span", real(o->waterline_span));
     json_object_set_new(json, "degree", json_integer(o->degree));
     json_object_set_new(json, "line_term", json_boolean(o->line_term));
     json_object_set_new(json, "cutoff_angle", real(o->cutoff_angle));
@@ -86,6 +87,7 @@ static json_t *result_json(const struct solve_run *run, const struct solve_resul
     json_object_set_new(json, "sinkage", real(f->sinkage));
     json_object_set_new(json, "trim", real(f->trim));
     json_object_set_new(json, "condition", real(f->condition));
+    json_object_set_new(json, "memory", real(f->memory));
     json_object_set_new(json, "seconds", real(f->seconds));
     if (result->options.kernel == IGABEM_KERNEL_KELVIN)
         add_total(run, f, json);

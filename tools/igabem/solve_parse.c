@@ -20,6 +20,8 @@ static const char help[] =
     "  --refine K          split every knot span of the hull in K (1); --refine-v K in v only\n"
     "  --elements N,M      the density on uniform knots of its own, N spans along u and M along v\n"
     "                      (as many as the hull has if its spans are uneven), or none\n"
+    "  --waterline-span F  least width of such spans at the waterline, share of the range of the\n"
+    "                      parameter; 0: uniform (0.1)\n"
     "  --degree P          least degree of the source density (3)\n"
     "  --tolerance T       relative error asked of the quadrature (1e-5)\n"
     "  --ladder N          N levels from --refine on, each half as fine again: orders and\n"
@@ -89,6 +91,7 @@ enum option_value {
     OPT_DRAFT,
     OPT_SIMPLIFY,
     OPT_ELEMENTS,
+    OPT_WATERLINE_SPAN,
     OPT_GRAVITY,
     OPT_DENSITY,
     OPT_VISCOSITY,
@@ -130,6 +133,7 @@ static const struct option options[] = {
     {"draft", required_argument, NULL, OPT_DRAFT},
     {"simplify", required_argument, NULL, OPT_SIMPLIFY},
     {"elements", required_argument, NULL, OPT_ELEMENTS},
+    {"waterline-span", required_argument, NULL, OPT_WATERLINE_SPAN},
     {"gravity", required_argument, NULL, OPT_GRAVITY},
     {"density", required_argument, NULL, OPT_DENSITY},
     {"viscosity", required_argument, NULL, OPT_VISCOSITY},
@@ -330,6 +334,8 @@ static int take(int opt, struct solve_request *r, bool *done)
         return number(opt, 0, true, &r->hull.simplify);
     case OPT_ELEMENTS:
         return parse_elements(r);
+    case OPT_WATERLINE_SPAN:
+        return number(opt, 0, true, &o->waterline_span);
     case OPT_GRAVITY:
         return number(opt, 0, false, &o->gravity);
     case OPT_DENSITY:

@@ -65,7 +65,10 @@ typedef struct igabem_options {
                        and its spans differ by more than a factor of 3, as after knot removal; else
                        0 */
     int elements_v; /**< the same along v; -1 */
-    int degree;     /**< least degree of the density; 3: lower geometry is elevated */
+    double waterline_span; /**< own knots keep spans along a waterline at least this wide, as a
+                              share of the range of the parameter, and are graded away from it when
+                              they would be narrower; 0: always uniform; 0.1 */
+    int degree;            /**< least degree of the density; 3: lower geometry is elevated */
 
     int line_term;        /**< Brard's waterline integral on (1) or off (0); 1 */
     double cutoff_angle;  /**< t_c of the filter exp(-((1+t^2)/(1+t_c^2))^2), t = tan(theta); NAN:
@@ -124,7 +127,9 @@ typedef struct igabem_forces {
     double sinkage, trim;       /**< linear: m, positive down; radians, positive bow up */
     double condition;           /**< 1-norm estimate of the matrix */
     double seconds;             /**< wall clock of the solve */
-    size_t dofs;                /**< unknowns on the modelled part of the hull */
+    double memory; /**< bytes of its influences and matrix, what grows as dofs^2; 0 without
+                      a solve */
+    size_t dofs;   /**< unknowns on the modelled part of the hull */
 } igabem_forces;
 
 /** Fills forces. */
