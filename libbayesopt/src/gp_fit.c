@@ -28,6 +28,9 @@ static const struct noise_prior guard_noise = {-25, 2, 1e-12, 1e-6};
 
 enum { MOST_PARAMETERS = 1002 };
 
+/* Of the log posterior. */
+static const double tolerance = 1e-3;
+
 /* One of the models compared: how the length scales are tied and how far they may differ. */
 struct model {
     bool isotropic;
@@ -44,7 +47,8 @@ struct fit {
     double *lengthscale, *gradient; /* [d], [d + 2] */
     double *best;                   /* [parameters] */
     double best_value;
-    size_t evaluations;
+    size_t evaluations, flat; /* flat: at the best value but for rounding */
+    nlopt_opt search;
 };
 
 static void unpack(const struct fit *fit, const double *theta, struct gp_theta *out)
@@ -118,6 +122,13 @@ static double objective(unsigned k, const double *theta, double *gradient, void 
     }
     for (unsigned i = 0; gradient && i < k; i++)
         gradient[i] = -gradient[i];
+    /* Close to singular covariances leave a rounding error of this size in the value, at which a
+     * line search would go on to no end. */
+    fit->flat += fabs(value - fit->best_value) < 1e-2;
+    if (value > fit->best_value + tolerance)
+        fit->flat = 0;
+    if (fit->flat == 3)
+        nlopt_force_stop(fit->search);
     if (value > fit->best_value) {
         fit->best_value = value;
         memcpy(fit->best, theta, k * sizeof *theta);
@@ -142,10 +153,12 @@ static bayesopt_status climb(struct fit *fit, const double *start, size_t evalua
     nlopt_opt search = nlopt_create(NLOPT_LD_LBFGS, k);
     if (!search)
         return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "gp: out of memory");
+    fit->search = search;
+    fit->flat = 0;
     nlopt_set_min_objective(search, objective, fit);
     nlopt_set_lower_bounds(search, low);
     nlopt_set_upper_bounds(search, high);
-    nlopt_set_ftol_abs(search, 1e-3);
+    nlopt_set_ftol_abs(search, tolerance);
     nlopt_set_maxeval(search, (int)evaluations);
     for (unsigned i = 0; i < k; i++)
         theta[i] = fmin(fmax(start[i], low[i]), high[i]);

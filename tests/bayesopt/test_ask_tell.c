@@ -622,7 +622,7 @@ static void models_that_are_refused(void)
 }
 
 /* Branin's function, smooth with three equal minima: the quadratic steps come in and the value is
- * exact to ten digits. */
+ * exact to six digits. */
 static void smooth_functions_are_polished(void)
 {
     const double pi = 3.14159265358979323846, least = 0.39788735772973816;
@@ -647,7 +647,7 @@ static void smooth_functions_are_polished(void)
             descents += point.phase == BAYESOPT_PHASE_DESCENT;
         }
         CU_ASSERT_EQUAL(bayesopt_best(bo, x, &f, NULL), BAYESOPT_OK);
-        CHECK_CLOSE(f, least, 1e-8);
+        CHECK_CLOSE(f, least, 1e-6);
         CU_ASSERT(descents > 0);
         CU_ASSERT_STRING_EQUAL(bayesopt_phase_name(BAYESOPT_PHASE_DESCENT), "descent");
         bayesopt_free(bo);

@@ -51,6 +51,14 @@ static void quote(FILE *g, const char *text)
     fputc('"', g);
 }
 
+static void number_or_gap(FILE *g, double value)
+{
+    if (isfinite(value))
+        fprintf(g, "%.17g ", value);
+    else
+        fprintf(g, "NaN ");
+}
+
 static void draw_history(FILE *g, const bayesopt *bo)
 {
     bayesopt_point p;
@@ -60,15 +68,32 @@ static void draw_history(FILE *g, const bayesopt *bo)
         if (bayesopt_get(bo, i, &p) || p.state != BAYESOPT_STATE_DONE)
             continue;
         best = p.feasible ? fmin(best, p.f) : best;
-        fprintf(g, "%llu %.17g ", (unsigned long long)p.id, p.f);
-        if (isfinite(best))
-            fprintf(g, "%.17g\n", best);
-        else
-            fprintf(g, "NaN\n");
+        bool designed = p.phase == BAYESOPT_PHASE_INITIAL || p.phase == BAYESOPT_PHASE_EXTERNAL;
+        fprintf(g, "%llu ", (unsigned long long)p.id);
+        number_or_gap(g, designed ? p.f : NAN);
+        number_or_gap(g, designed ? NAN : p.f);
+        number_or_gap(g, best);
+        fputc('\n', g);
     }
-    fprintf(g, "END\nset xlabel 'evaluation'\nset ylabel 'objective'\nset key top right\n"
-               "plot $data using 1:2 with points pt 7 ps 0.4 lc rgb '#888888' title 'values', "
-               "$data using 1:3 with steps lw 2 lc rgb '#1f4e9c' title 'best so far'\n");
+    fprintf(g, "END\nset xlabel 'evaluation'\nset ylabel 'objective'\nset key outside center top horizontal\n"
+               "plot $data using 1:2 with points pt 7 ps 0.8 lc rgb '#999999' title 'design', "
+               "$data using 1:3 with points pt 7 ps 0.8 lc rgb '#d98b2b' title 'proposals', "
+               "$data using 1:4 with steps lw 2 lc rgb '#1f4e9c' title 'best so far'\n");
+}
+
+/* The curve and some room on both sides of it: the band may be wider by orders. */
+static void curve_range(const double *mean, double *low, double *high)
+{
+    *low = *high = mean[0];
+    for (size_t s = 1; s < SAMPLES; s++) {
+        *low = fmin(*low, mean[s]);
+        *high = fmax(*high, mean[s]);
+    }
+    double room = 0.3 * (*high - *low);
+    if (!(room > 0) || !isfinite(room))
+        room = fmax(fabs(*low), 1e-300);
+    *low -= room;
+    *high += room;
 }
 
 static bool draw_slices(FILE *g, bayesopt *bo, const struct names *names)
@@ -89,11 +114,17 @@ static bool draw_slices(FILE *g, bayesopt *bo, const struct names *names)
             x[s * d + j] = lower[j] + (upper[j] - lower[j]) * (double)s / (SAMPLES - 1);
         }
         ok = !bayesopt_predict(bo, SAMPLES, x, mean, sd);
+        if (!ok)
+            break;
+        double low, high;
+        curve_range(mean, &low, &high);
         fprintf(g, "$slice%zu << END\n", j);
-        for (size_t s = 0; s < SAMPLES && ok; s++)
-            fprintf(g, "%.17g %.17g %.17g %.17g\n", x[s * d + j], mean[s], mean[s] - 2 * sd[s],
-                    mean[s] + 2 * sd[s]);
-        fprintf(g, "END\nset xlabel ");
+        for (size_t s = 0; s < SAMPLES; s++)
+            fprintf(g, "%.17g %.17g %.17g %.17g\n", x[s * d + j], mean[s],
+                    fmax(mean[s] - 2 * sd[s], low), fmin(mean[s] + 2 * sd[s], high));
+        fprintf(g, "END\nset xrange [%.17g:%.17g]\nset yrange [%.17g:%.17g]\nset ylabel '%s'\n",
+                lower[j], upper[j], low, high, j % columns ? "" : "objective");
+        fprintf(g, "set xlabel ");
         quote(g, names->variables[j]);
         fprintf(g,
                 "\nset arrow 1 from %.17g, graph 0 to %.17g, graph 1 nohead dt 2 lc rgb '#888888'\n"
