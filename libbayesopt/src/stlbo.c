@@ -7,10 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "clones.h"
 #include "design_internal.h"
 #include "error.h"
 
-enum { LEARNERS = 10, MOST_SWEEPS = 200, QUIET_SWEEPS = 10 };
+enum { LEARNERS = 10, MOST_SWEEPS = 200, QUIET_SWEEPS = 10, BLOCK = 32 };
 
 struct school {
     size_t n, d;
@@ -20,33 +21,60 @@ struct school {
     double *violations; /* [n x LEARNERS] of the input constraints */
     double *costs;      /* [LEARNERS] of the present sub-population */
     double *teachers;   /* [n x d] */
-    double *strata;     /* [(n + existing) x d] of teachers and existing points */
+    /* Teachers and existing points once more with their strata, variable by variable, filled up to
+     * whole blocks: [d x room]. */
+    size_t room;
+    double *columns, *strata;
     double *mean, *moved, *moved_strata;
     double unit; /* energy of a typical point: scale of the other terms */
 };
 
-static void find_strata(const struct school *s, const double *x, double *strata)
+static double stratum(const struct school *s, double x)
 {
-    double bins = (double)(s->n + s->options->n_existing);
-    for (size_t j = 0; j < s->d; j++)
-        strata[j] = floor(x[j] * bins);
+    return floor(x * (double)(s->n + s->options->n_existing));
+}
+
+static void put_column(struct school *s, size_t k, const double *x)
+{
+    for (size_t j = 0; j < s->d; j++) {
+        s->columns[j * s->room + k] = x[j];
+        s->strata[j * s->room + k] = stratum(s, x[j]);
+    }
+}
+
+/* Squared distances to BLOCK points and the numbers of strata shared with them. */
+BAYESOPT_CLONES
+static void compare_block(size_t d, size_t room, const double *restrict x,
+                          const double *restrict x_strata, const double *restrict columns,
+                          const double *restrict strata, double *restrict d2,
+                          double *restrict shared)
+{
+    for (size_t c = 0; c < BLOCK; c++)
+        d2[c] = shared[c] = 0;
+    for (size_t j = 0; j < d; j++) {
+        const double *at = columns + j * room, *bin = strata + j * room;
+        double here = x[j], own = x_strata[j];
+        for (size_t c = 0; c < BLOCK; c++) {
+            d2[c] += (here - at[c]) * (here - at[c]);
+            shared[c] += own == bin[c] ? 1 : 0;
+        }
+    }
 }
 
 /* Energy and shared strata of a point; once they reach `most` the rest is left out. */
 static double crowding(const struct school *s, size_t self, const double *x, double most)
 {
     const bayesopt_design_options *o = s->options;
-    double sum = 0, share = o->latin_weight * s->unit / (double)s->d;
-    find_strata(s, x, s->moved_strata);
-    for (size_t k = 0; k < s->n + o->n_existing && sum < most; k++) {
-        const double *other = k < s->n ? s->teachers + k * s->d : o->existing + (k - s->n) * s->d;
-        const double *strata = s->strata + k * s->d;
-        double shared = 0;
-        if (k == self)
-            continue;
-        for (size_t j = 0; j < s->d; j++)
-            shared += s->moved_strata[j] == strata[j] ? 1 : 0;
-        sum += design_pair_energy(design_distance2(s->d, x, other), o->power) + share * shared;
+    double sum = 0, share = o->latin_weight * s->unit / (double)s->d, d2[BLOCK], shared[BLOCK];
+    size_t others = s->n + o->n_existing;
+    for (size_t j = 0; j < s->d; j++)
+        s->moved_strata[j] = stratum(s, x[j]);
+    for (size_t b = 0; b < others && sum < most; b += BLOCK) {
+        size_t width = others - b < BLOCK ? others - b : BLOCK;
+        compare_block(s->d, s->room, x, s->moved_strata, s->columns + b, s->strata + b, d2, shared);
+        for (size_t c = 0; c < width && sum < most; c++)
+            if (b + c != self)
+                sum += design_pair_energy(d2[c], o->power) + share * shared[c];
     }
     return sum;
 }
@@ -118,7 +146,7 @@ static double visit(struct school *s, size_t p, struct random_stream *stream)
     for (size_t i = 1; i < LEARNERS; i++)
         best = s->costs[i] < s->costs[best] ? i : best;
     memcpy(s->teachers + p * s->d, learners + best * s->d, s->d * sizeof *learners);
-    find_strata(s, s->teachers + p * s->d, s->strata + p * s->d);
+    put_column(s, p, s->teachers + p * s->d);
     return s->costs[best];
 }
 
@@ -151,10 +179,10 @@ static bayesopt_status enrol(struct school *s, struct random_stream *stream)
     for (size_t p = 0; p < s->n; p++) {
         memcpy(s->teachers + p * s->d, s->learners + p * LEARNERS * s->d,
                s->d * sizeof *s->teachers);
-        find_strata(s, s->teachers + p * s->d, s->strata + p * s->d);
+        put_column(s, p, s->teachers + p * s->d);
     }
     for (size_t k = 0; k < s->options->n_existing; k++)
-        find_strata(s, s->options->existing + k * s->d, s->strata + (s->n + k) * s->d);
+        put_column(s, s->n + k, s->options->existing + k * s->d);
     for (size_t p = 0; p < s->n; p++)
         for (size_t q = 0; q < p; q++)
             s->unit += 2 / (double)s->n *
@@ -169,14 +197,16 @@ bayesopt_status design_stlbo(size_t n, size_t d, const bayesopt_design_options *
 {
     struct random_stream stream;
     struct school s = {.n = n, .d = d, .options = options, .region = region, .teachers = x};
-    size_t others = n + options->n_existing;
-    s.learners = malloc((n * LEARNERS * (d + 1) + LEARNERS + (others + 3) * d) * sizeof(double));
+    s.room = (n + options->n_existing + BLOCK - 1) / BLOCK * BLOCK;
+    s.learners =
+        calloc(n * LEARNERS * (d + 1) + LEARNERS + (2 * s.room + 3) * d, sizeof *s.learners);
     if (!s.learners)
         return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "design: out of memory");
     s.violations = s.learners + n * LEARNERS * d;
     s.costs = s.violations + n * LEARNERS;
-    s.strata = s.costs + LEARNERS;
-    s.mean = s.strata + others * d;
+    s.columns = s.costs + LEARNERS;
+    s.strata = s.columns + s.room * d;
+    s.mean = s.strata + s.room * d;
     s.moved = s.mean + d;
     s.moved_strata = s.moved + d;
     random_start(&stream, options->seed, STREAM_TEACH, 0);
