@@ -225,6 +225,57 @@ static void test_both_sides(void)
     nurbs_surface_free(sides[1]);
 }
 
+/* C_w of a body divided at its middle parameters, nu x nv elements on every patch. */
+static double divided(const nurbs_surface *whole, int along, int around, int nu, int nv,
+                      double froude)
+{
+    nurbs_surface *part[4] = {NULL};
+    size_t n = 0;
+    for (int i = 0; i <= along; i++) {
+        nurbs_surface *strip = NULL;
+        const double u[2] = {along ? 0.5 * i : 0.0, along ? 0.5 * (i + 1) : 1.0};
+        CU_ASSERT_EQUAL_FATAL(nurbs_surface_part(whole, 0, u[0], u[1], &strip), NURBS_OK);
+        for (int j = 0; j <= around; j++) {
+            const double v[2] = {around ? 0.5 * j : 0.0, around ? 0.5 * (j + 1) : 1.0};
+            CU_ASSERT_EQUAL_FATAL(nurbs_surface_part(strip, 1, v[0], v[1], &part[n++]), NURBS_OK);
+        }
+        nurbs_surface_free(strip);
+    }
+    igabem_hull *hull = NULL;
+    igabem_status status =
+        igabem_hull_create((const nurbs_surface *const *)part, n, IGABEM_SYMMETRIC, &hull);
+    if (status != IGABEM_OK)
+        fprintf(stderr, "hull: %s\n", igabem_last_error());
+    CU_ASSERT_EQUAL_FATAL(status, IGABEM_OK);
+    igabem_options options = setting(nu, nv);
+    options.froude = froude;
+    double cw = cw_of(hull, &options);
+    printf("\n    %zu patches: C_w %.6e", n, cw);
+    igabem_hull_free(hull);
+    while (n > 0)
+        nurbs_surface_free(part[--n]);
+    return cw;
+}
+
+/* The density may jump from patch to patch; what it radiates does not, within the mesh error. */
+static void test_divided_hull(void)
+{
+    nurbs_surface *wigley = NULL, *spheroid = NULL;
+    CU_ASSERT_EQUAL_FATAL(nurbs_make_wigley(1.0, 0.1, 0.0625, &wigley), NURBS_OK);
+    double one = divided(wigley, 0, 0, 20, 6, 0.35);
+    double two = divided(wigley, 1, 0, 10, 6, 0.35), layers = divided(wigley, 0, 1, 20, 3, 0.35);
+    CHECK_RELATIVE(two, one, 5e-4);
+    CHECK_RELATIVE(layers, one, 5e-4);
+    CU_ASSERT_EQUAL_FATAL(nurbs_make_ellipsoid(1.0, 0.2, 0.2, 0.16, &spheroid), NURBS_OK);
+    one = divided(spheroid, 0, 0, 12, 6, 0.5);
+    two = divided(spheroid, 1, 0, 6, 6, 0.5);
+    layers = divided(spheroid, 0, 1, 12, 3, 0.5);
+    CHECK_RELATIVE(two, one, 5e-4);
+    CHECK_RELATIVE(layers, one, 5e-4);
+    nurbs_surface_free(wigley);
+    nurbs_surface_free(spheroid);
+}
+
 static void test_threads(void)
 {
     igabem_hull *hull = wigley_hull(0.1, 0.0625, 1, 1);
@@ -307,6 +358,7 @@ static const struct check_case cases[] = {
     {"limits of the stern variant", test_stern_limits},
     {"stern length by rule", test_stern_rule},
     {"both sides as patches", test_both_sides},
+    {"one hull in several patches", test_divided_hull},
     {"threads", test_threads},
     {"progress and cancelling", test_progress},
     {"refusals", test_refusals},
