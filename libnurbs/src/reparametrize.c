@@ -167,3 +167,103 @@ nurbs_status nurbs_surface_simplify_geometric(const nurbs_surface *surface, doub
         *bound = smaller ? bounds[1] + bounds[2] + bounds[3] : bounds[0];
     return NURBS_OK;
 }
+
+/* The curve with every span divided, as Bezier segments. */
+static nurbs_status divided_curve(const nurbs_curve *curve, nurbs_curve **bezier)
+{
+    const struct axis *axis = &curve->axis;
+    const double *t = axis->knots;
+    double *u = malloc((DIVISIONS - 1) * axis->size * sizeof *u);
+    nurbs_curve *divided = NULL;
+    size_t n = 0;
+    if (!u)
+        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory to divide %zu spans", axis->size);
+    for (size_t s = (size_t)axis->degree; s < axis->size; s++)
+        for (int k = 1; k < DIVISIONS; k++) {
+            const double knot = t[s] + (t[s + 1] - t[s]) * ((double)k / DIVISIONS);
+            if (knot > t[s] && knot < t[s + 1] && (n == 0 || knot > u[n - 1]))
+                u[n++] = knot;
+        }
+    nurbs_status status = nurbs_curve_insert(curve, n, u, &divided);
+    if (status == NURBS_OK)
+        status = nurbs_curve_to_bezier(divided, bezier);
+    nurbs_curve_free(divided);
+    free(u);
+    return status;
+}
+
+/* Lengths between distinct knots by chords. */
+static nurbs_status curve_lengths(const nurbs_curve *curve, const double *breaks, size_t spans,
+                                  double *lengths)
+{
+    for (size_t s = 0; s < spans; s++) {
+        double u[SAMPLES + 1], points[3 * (SAMPLES + 1)];
+        for (int k = 0; k <= SAMPLES; k++)
+            u[k] = k == SAMPLES ? breaks[s + 1]
+                                : breaks[s] + (breaks[s + 1] - breaks[s]) * ((double)k / SAMPLES);
+        nurbs_status status = nurbs_curve_eval(curve, 0, SAMPLES + 1, u, points);
+        if (status != NURBS_OK)
+            return status;
+        lengths[s] = 0.0;
+        for (size_t k = 0; k < SAMPLES; k++)
+            lengths[s] += distance(points + 3 * k, points + 3 * (k + 1));
+    }
+    return NURBS_OK;
+}
+
+static nurbs_status even_curve(const nurbs_curve *curve, nurbs_curve **even)
+{
+    nurbs_curve *bezier;
+    nurbs_status status = divided_curve(curve, &bezier);
+    if (status != NURBS_OK)
+        return status;
+    const struct axis *axis = &bezier->axis;
+    const size_t count = axis->size + (size_t)axis->degree + 1;
+    double *knots = malloc(4 * count * sizeof *knots);
+    if (knots) {
+        double *breaks = knots + count, *lengths = breaks + count, *stretched = lengths + count;
+        const size_t spans =
+            nurbs_knots_distinct(axis->degree, axis->size, axis->knots, breaks, NULL) - 1;
+        status = curve_lengths(bezier, breaks, spans, lengths);
+        if (status == NURBS_OK) {
+            stretch(spans, lengths, stretched);
+            move_knots(axis, stretched, knots);
+            status = nurbs_curve_create(axis->degree, axis->size, knots, bezier->points,
+                                        bezier->weights, even);
+        }
+    } else {
+        status = nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu knots", count);
+    }
+    free(knots);
+    nurbs_curve_free(bezier);
+    return status;
+}
+
+nurbs_status nurbs_curve_simplify_geometric(const nurbs_curve *curve, double tolerance,
+                                            nurbs_curve **result, double *bound)
+{
+    if (!curve || !result)
+        return nurbs_fail(NURBS_ERROR_ARGUMENT, "%s is NULL", curve ? "result" : "curve");
+    *result = NULL;
+    nurbs_curve *plain = NULL, *first = NULL, *even = NULL, *second = NULL;
+    double bounds[3] = {0.0};
+    nurbs_status status = nurbs_curve_simplify(curve, tolerance, &plain, &bounds[0]);
+    if (status == NURBS_OK)
+        status = nurbs_curve_simplify(curve, first_share * tolerance, &first, &bounds[1]);
+    if (status == NURBS_OK)
+        status = even_curve(first, &even);
+    if (status == NURBS_OK)
+        status = nurbs_curve_simplify(even, tolerance - bounds[1], &second, &bounds[2]);
+    nurbs_curve_free(first);
+    nurbs_curve_free(even);
+    if (status != NURBS_OK) {
+        nurbs_curve_free(plain);
+        return status;
+    }
+    const int smaller = second->axis.size < plain->axis.size;
+    *result = smaller ? second : plain;
+    nurbs_curve_free(smaller ? plain : second);
+    if (bound)
+        *bound = smaller ? bounds[1] + bounds[2] : bounds[0];
+    return NURBS_OK;
+}

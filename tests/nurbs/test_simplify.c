@@ -408,6 +408,44 @@ static void test_geometric_mode(void)
     nurbs_surface_free(plain);
 }
 
+/* A parabola whose parameter wobbles: evened out it needs fewer control points. */
+static void test_geometric_curve(void)
+{
+    enum { N = 60, POINTS = 100 };
+    uint64_t state = 58;
+    double knots[N + 4], points[3 * N], bound, plain_bound, u;
+    nurbs_curve *c, *even, *plain;
+    random_knots(&state, 3, N, 0, knots);
+    for (size_t i = 0; i < N; i++) { /* even in x although the knots are not */
+        const double x = (double)i / (N - 1);
+        points[3 * i] = 2.0 * x;
+        points[3 * i + 1] = x * (1.0 - x);
+        points[3 * i + 2] = 0.3 * x * x;
+    }
+    CU_ASSERT_EQUAL_FATAL(nurbs_curve_create(3, N, knots, points, NULL, &c), NURBS_OK);
+    for (int t = 0; t < 2; t++) {
+        const double tolerance = t ? 1e-2 : 1e-3;
+        CU_ASSERT_EQUAL_FATAL(nurbs_curve_simplify(c, tolerance, &plain, &plain_bound), NURBS_OK);
+        CU_ASSERT_EQUAL_FATAL(nurbs_curve_simplify_geometric(c, tolerance, &even, &bound),
+                              NURBS_OK);
+        CU_ASSERT(bound <= tolerance);
+        CU_ASSERT(nurbs_curve_size(even) < nurbs_curve_size(plain));
+        const nurbs_curve *const both[2] = {c, even};
+        for (int k = 0; k < 2; k++)
+            for (int i = 0; i <= POINTS; i++) {
+                double at = (double)i / POINTS, p[3], distance;
+                CU_ASSERT_EQUAL(nurbs_curve_eval(both[k], 0, 1, &at, p), NURBS_OK);
+                CU_ASSERT_EQUAL(nurbs_curve_closest(both[1 - k], 1, p, &u, &distance), NURBS_OK);
+                CU_ASSERT(distance <= bound);
+            }
+        nurbs_curve_free(plain);
+        nurbs_curve_free(even);
+    }
+    CU_ASSERT_EQUAL(nurbs_curve_simplify_geometric(c, -1.0, &even, NULL), NURBS_ERROR_ARGUMENT);
+    CU_ASSERT_PTR_NULL(even);
+    nurbs_curve_free(c);
+}
+
 static void test_bad_input(void)
 {
     uint64_t state = 56;
@@ -445,6 +483,7 @@ static const struct check_case cases[] = {
     {"kinks stay", test_kinks_stay},
     {"removal from surfaces", test_surface_remove},
     {"geometric mode", test_geometric_mode},
+    {"geometric mode of curves", test_geometric_curve},
     {"bad input and extreme tolerances", test_bad_input},
 };
 

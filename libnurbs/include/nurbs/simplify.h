@@ -36,14 +36,17 @@ NURBS_API nurbs_status nurbs_surface_simplify(const nurbs_surface *surface, doub
 /** Simplifies the shape instead of the mapping: parameters are evened out to the mean length of the
  * lines along each direction first, so that a simple shape whose parametrisation wobbles becomes
  * small. The domain of the result is then [0,1] x [0,1], and a kink stays within the tolerance
- * only; where evening out does not pay, the result is that of nurbs_surface_simplify.
+ * only; where evening out does not pay, the result is that of a thrifty nurbs_surface_simplify.
  * @param flags  0 or NURBS_KEEP_EDGES
  * @param bound  fills a proven upper bound, <= tolerance, of the distance of each point of either
  *               surface from the other (Hausdorff distance); NULL allowed
- * Much slower than nurbs_surface_simplify: the net grows before it shrinks. */
+ * Slower than a thrifty nurbs_surface_simplify: the net grows before it shrinks. */
 NURBS_API nurbs_status nurbs_surface_simplify_geometric(const nurbs_surface *surface,
                                                         double tolerance, unsigned flags,
                                                         nurbs_surface **result, double *bound);
+/** The same for curves; the parameter becomes about the length over its total. */
+NURBS_API nurbs_status nurbs_curve_simplify_geometric(const nurbs_curve *curve, double tolerance,
+                                                      nurbs_curve **result, double *bound);
 
 /** Removes an interior knot (exactly as stored) `times` times whatever the distance, both end
  * points (corners) kept: least squares, then the largest distance lowered by alternating
