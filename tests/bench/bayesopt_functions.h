@@ -16,7 +16,7 @@ struct test_function {
 extern const struct test_function test_functions[];
 extern const size_t n_test_functions;
 
-/* Others, on which nothing was tuned. */
+/* Others, on which NLopt's methods run along. */
 extern const struct test_function held_out_functions[];
 extern const size_t n_held_out_functions;
 

@@ -1,5 +1,5 @@
-/* Functions on which nothing of the optimiser was chosen. Boxes are moved so that no minimum lies
- * at a centre, which methods that divide the box evaluate first. */
+/* Functions beyond those for which figures of other optimisers are known. Boxes are moved so that
+ * no minimum lies at a centre, which methods that divide the box evaluate first. */
 #include "bayesopt_functions.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* Regret on public test functions beside the figures of other optimisers: one default
  * configuration, the peers' initial designs, seeds and budgets. Prints Markdown tables: the
- * functions for which figures of the peers are known, then others on which nothing was tuned, where
- * NLopt's DIRECT_L and BOBYQA (from the best point of the same design) run along.
+ * functions for which figures of the peers are known, then others, where NLopt's DIRECT_L and
+ * BOBYQA (from the best point of the same design) run along.
  *
  * usage: bayesopt_regret [SEEDS [FUNCTION...]]   (default 10 seeds up to 6 variables, 5 above) */
 #include <bayesopt/bayesopt.h>
@@ -197,7 +197,7 @@ int main(int argc, char **argv)
         if (wanted(test_functions[i].name, argc, argv))
             compare_with_peers(&test_functions[i], seeds_for(&test_functions[i], seeds));
     printf(
-        "\n| held out (d, n0/N) | regret, median [quartiles] | seeds | LHS + BOBYQA | DIRECT_L | "
+        "\n| function (d, n0/N) | regret, median [quartiles] | seeds | LHS + BOBYQA | DIRECT_L | "
         "CPU s per proposal |\n|---|---|---|---|---|---|\n");
     for (size_t i = 0; i < n_held_out_functions; i++)
         if (wanted(held_out_functions[i].name, argc, argv))
