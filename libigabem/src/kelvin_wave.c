@@ -141,18 +141,19 @@ KELVIN_INLINE void wave_of_lanes(const struct kelvin_wave_points *points, size_t
     struct kelvin_windows windows;
     int jobs = 0;
     memset(out, 0, n * sizeof *out);
-    if (n < FEW)
-        for (size_t i = 0; i < n; i++) {
-            kelvin_vec zero = {0};
-            struct kelvin_wave_points p = {zero + points->x[i], zero + points->y[i],
-                                           zero + points->z[i], points->e2};
-            kelvin_find_windows(&p, 1, kind, &windows);
-            jobs = queue_point(&windows, 0, i, job, jobs);
+    /* One copy of the search for both ways: it is most of the code. */
+    bool alone = n < FEW;
+    for (size_t i = 0; i < n; i += alone ? 1 : n) {
+        kelvin_vec zero = {0};
+        struct kelvin_wave_points p = *points;
+        if (alone) {
+            p.x = zero + points->x[i];
+            p.y = zero + points->y[i];
+            p.z = zero + points->z[i];
         }
-    else {
-        kelvin_find_windows(points, 0, kind, &windows);
-        for (size_t i = 0; i < n; i++)
-            jobs = queue_point(&windows, (int)i, i, job, jobs);
+        kelvin_find_windows(&p, alone, kind, &windows);
+        for (size_t k = i; k < (alone ? i + 1 : n); k++)
+            jobs = queue_point(&windows, (int)(k - i), k, job, jobs);
     }
     for (int i = 0; i < jobs; i++) {
         kelvin_vec sum[MOST_SUMS] = {{0}};

@@ -17,6 +17,8 @@
 
 #include "kelvin_contour.h"
 
+#include <stdbool.h>
+
 #define KELVIN_CUT    25.5
 #define KELVIN_SAFETY 0.96
 /* Behind the source inside the wedge, outside it, and for q = sinh p, which is taken where the
@@ -373,7 +375,7 @@ KELVIN_INLINE void kelvin_p_of_q(const kelvin_bits *curved, kelvin_vec *q)
 
 /* The first holds the only window, or the one about q1 if the second is not empty. alone: the same
  * point is in all lanes. */
-KELVIN_INLINE void kelvin_find_windows(const struct kelvin_wave_points *p, int alone,
+KELVIN_INLINE void kelvin_find_windows(const struct kelvin_wave_points *p, bool alone,
                                        enum kelvin_kind kind, struct kelvin_windows *windows)
 {
     struct kelvin_window *first = &windows->part[0], *second = &windows->part[1];
