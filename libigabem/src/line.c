@@ -158,6 +158,18 @@ static void strength_moments(const struct line *line, const struct line_segment 
     }
 }
 
+static double segment_length(const struct line *line, const struct line_segment *segment,
+                             const struct gauss *gauss)
+{
+    double length = 0.0;
+    for (int i = 0; i < LINE_TEST; i++) {
+        struct line_point point;
+        line_evaluate(line, segment, gauss->node[LINE_TEST][i], &point);
+        length += gauss->weight[LINE_TEST][i] * point.dl;
+    }
+    return length;
+}
+
 /* Appends the segment in halves until the halves agree with the whole to 1e-7 m of unit strength
  * per metre of waterline. */
 static int append_smooth(struct line *line, const struct line_segment *segment, double tolerance,
@@ -191,8 +203,7 @@ static int append_edge(struct line *line, const struct density *density, const s
         struct line_segment segment = {
             .element = element, .fixed = fixed, .end = end, .range = {0.0, 1.0}};
         bound_segment(&segment);
-        double tolerance = 1e-7 * (segment.box[1] - segment.box[0]);
-        if (!append_smooth(line, &segment, tolerance, 0, gauss))
+        if (!append_smooth(line, &segment, 1e-7 * segment_length(line, &segment, gauss), 0, gauss))
             return 0;
     }
     return 1;

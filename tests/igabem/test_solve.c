@@ -349,6 +349,40 @@ static void test_refusals(void)
     igabem_hull_free(hull);
 }
 
+/* A waterline edge across the stream has no extent in x. */
+static void test_closed_transom(void)
+{
+    const double half_breadth = 0.05, draft = 0.0625;
+    const int degree[2] = {1, 1};
+    const size_t size[2] = {2, 2};
+    const double knots[4] = {0, 0, 1, 1};
+    const double face[12] = {0, 0, 0, 0, 0, -draft, 0, half_breadth, 0, 0, 0, -draft};
+    nurbs_surface *patch[2] = {wedge_surface(half_breadth, draft), NULL};
+    igabem_hull *hull = NULL;
+    double cw[2];
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_create(degree, size, knots, knots, face, NULL, &patch[1]),
+                          NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(
+        igabem_hull_create((const nurbs_surface *const *)patch, 2, IGABEM_SYMMETRIC, &hull),
+        IGABEM_OK);
+    for (int k = 0; k < 2; k++) {
+        igabem_options options;
+        igabem_solution *solution;
+        igabem_forces forces;
+        igabem_options_init(&options);
+        options.froude = 0.35;
+        options.refine = 3 + 2 * k;
+        CU_ASSERT_EQUAL_FATAL(igabem_solve(hull, &options, &solution), IGABEM_OK);
+        CU_ASSERT_EQUAL(igabem_forces_compute(solution, &forces), IGABEM_OK);
+        cw[k] = forces.cw;
+        igabem_solution_free(solution);
+    }
+    CHECK_RELATIVE(cw[0], cw[1], 0.05);
+    igabem_hull_free(hull);
+    for (int k = 0; k < 2; k++)
+        nurbs_surface_free(patch[k]);
+}
+
 static const struct check_case cases[] = {
     {"names of formulations", test_names},
     {"frozen options", test_freeze},
@@ -362,6 +396,7 @@ static const struct check_case cases[] = {
     {"threads", test_threads},
     {"progress and cancelling", test_progress},
     {"refusals", test_refusals},
+    {"closed transom in a plane", test_closed_transom},
 };
 
 CHECK_MAIN("solve", cases)
