@@ -1,5 +1,8 @@
 /* The Kelvin Green function: nanoseconds per point, and the worst errors by region against Bessho's
- * representation. Usage: igabem_bench_kelvin [POINTS PER REGION] (default 200). */
+ * representation. Usage: igabem_bench_kelvin [POINTS PER REGION] (default 200), or
+ * igabem_bench_kelvin map for the errors as an SVG map. */
+#include "igabem_kelvin.h"
+
 #include "../igabem/kelvin_oracle.h"
 
 #include <igabem/kelvin.h>
@@ -7,6 +10,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 enum { BATCH = 4000, PASSES = 15 };
@@ -114,18 +118,25 @@ struct worst {
     double error[4], at[4][3];
 };
 
-static void compare(const double *P, struct worst *worst)
+void kelvin_errors(const double P[3], double error[4])
 {
     double N[4], W[4], local[4], wave[4], square = P[0] * P[0] + P[1] * P[1] + P[2] * P[2];
     kelvin_oracle_parts(P[0], P[1], P[2], local, wave);
     igabem_kelvin_local(1, P, P + 1, P + 2, N, N + 1, N + 2, N + 3);
     igabem_kelvin_wave(1, P, P + 1, P + 2, W, W + 1, W + 2, W + 3);
-    double error[4] = {fabs(N[0] - local[0]) / fabs(local[0]), 0,
-                       fabs(W[0] - wave[0]) / fmax(1, fabs(wave[0])), 0};
+    error[0] = fabs(N[0] - local[0]) / fabs(local[0]);
+    error[2] = fabs(W[0] - wave[0]) / fmax(1, fabs(wave[0]));
+    error[1] = error[3] = 0;
     for (int k = 1; k < 4; k++) {
         error[1] = fmax(error[1], fabs(N[k] - local[k]) / fmax(largest(local), 1 / square));
         error[3] = fmax(error[3], fabs(W[k] - wave[k]) / fmax(1, largest(wave)));
     }
+}
+
+static void compare(const double *P, struct worst *worst)
+{
+    double error[4];
+    kelvin_errors(P, error);
     for (int k = 0; k < 4; k++)
         if (!(error[k] <= worst->error[k])) {
             worst->error[k] = error[k];
@@ -168,6 +179,10 @@ static void print_accuracy(int points)
 
 int main(int argc, char **argv)
 {
+    if (argc > 1 && strcmp(argv[1], "map") == 0) {
+        print_map();
+        return EXIT_SUCCESS;
+    }
     int points = argc > 1 ? atoi(argv[1]) : 200;
     print_speed();
     if (points > 0)

@@ -62,7 +62,7 @@ IGABEM_API igabem_status igabem_kelvin_local(size_t n, const double *X, const do
 
 /**
  * Second derivatives of N, same conventions as igabem_kelvin_local(). They satisfy
- * N_XX + N_YY + N_ZZ = 0 and N_XX + N_Z = 2 Z/R^3.
+ * N_XX + N_YY + N_ZZ = 0 and N_XX + N_Z = 2 Z/R^3. Error below 2e-8 of max(largest of them, 1/R^3).
  */
 IGABEM_API igabem_status igabem_kelvin_local_second(size_t n, const double *X, const double *Y,
                                                     const double *Z, double *NXX, double *NXY,
