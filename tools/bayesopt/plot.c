@@ -75,7 +75,8 @@ static void draw_history(FILE *g, const bayesopt *bo)
         number_or_gap(g, best);
         fputc('\n', g);
     }
-    fprintf(g, "END\nset xlabel 'evaluation'\nset ylabel 'objective'\nset key outside center top horizontal\n"
+    fprintf(g, "END\nset xlabel 'evaluation'\nset ylabel 'objective'\nset key outside center top "
+               "horizontal\n"
                "plot $data using 1:2 with points pt 7 ps 0.8 lc rgb '#999999' title 'design', "
                "$data using 1:3 with points pt 7 ps 0.8 lc rgb '#d98b2b' title 'proposals', "
                "$data using 1:4 with steps lw 2 lc rgb '#1f4e9c' title 'best so far'\n");

@@ -16,9 +16,9 @@
 extern "C" {
 #endif
 
-/** Ellipsoid with semi-axes length/2, beam/2, height/2, exact: rational of degree 4 x 4, smooth in its
- * parameters, which run slower where the body is curved more; a sphere or a spheroid is the case
- * of equal axes. */
+/** Ellipsoid with semi-axes length/2, beam/2, height/2, exact: rational of degree 4 x 4, smooth in
+ * its parameters, which run slower where the body is curved more; a sphere or a spheroid is the
+ * case of equal axes. */
 NURBS_API nurbs_status nurbs_make_ellipsoid(double length, double beam, double height, double depth,
                                             nurbs_surface **surface);
 

@@ -44,8 +44,8 @@ NURBS_API const double *nurbs_surface_weights(const nurbs_surface *surface);
  * @param order  0 to 50; up to 2 is the fast path. Above the degree of a polynomial: zero
  * @param uv     n pairs u,v inside the domain (else an error naming the index)
  * @param out    fills out[n][NURBS_SURFACE_TRIPLES(order)][3]
- * At interior knots the right-hand limit, at the end of the domain the left-hand one. Spans are found
- * by a table in constant time, so no hint is needed. */
+ * At interior knots the right-hand limit, at the end of the domain the left-hand one. Spans are
+ * found by a table in constant time, so no hint is needed. */
 NURBS_API nurbs_status nurbs_surface_eval(const nurbs_surface *surface, int order, size_t n,
                                           const double *uv, double *out);
 
