@@ -122,6 +122,27 @@ static void distant_points(void)
     }
 }
 
+/* Form (A) of docs/kelvin.md, differentiated under the integral and integrated in 30 digits: where
+ * the slow oracle of the other tests loses the digits of the gradient of N. */
+static void far_gradient(void)
+{
+    static const double P[2][3] = {{-3902.09586, 4.12811705, -0.876450975},
+                                   {-1244.0, 1.48, -0.219}};
+    static const double exact[2][4] = {{-0.00051241347955179408, -1.3128371687478964e-7,
+                                        1.3874588766254572e-10, 3.7768686248199378e-11},
+                                       {-0.001606423963964766, -1.290297582151267e-6,
+                                        1.5301619093788392e-9, 1.8452444391692999e-9}};
+    for (int i = 0; i < 2; i++) {
+        double N[4], square = P[i][0] * P[i][0];
+        CU_ASSERT_EQUAL(
+            igabem_kelvin_local(1, &P[i][0], &P[i][1], &P[i][2], N, N + 1, N + 2, N + 3),
+            IGABEM_OK);
+        CHECK_RELATIVE(N[0], exact[i][0], 1e-12);
+        for (int k = 1; k < 4; k++)
+            CHECK_CLOSE(N[k], exact[i][k], 1e-10 / square);
+    }
+}
+
 static void refusals(void)
 {
     const double zero = 0, one = 1, minus = -1, bad = NAN, far = 2e9;
@@ -329,9 +350,15 @@ static void amplitudes(void)
 }
 
 static const struct check_case cases[] = {
-    {"parts add up", parts_add_up}, {"derivatives", derivatives},       {"long batch", long_batch},
-    {"refusals", refusals},         {"distant points", distant_points}, {"filter", filter},
-    {"resistances", resistances},   {"amplitudes", amplitudes},
+    {"parts add up", parts_add_up},
+    {"derivatives", derivatives},
+    {"long batch", long_batch},
+    {"refusals", refusals},
+    {"distant points", distant_points},
+    {"filter", filter},
+    {"gradient of N far away, in 30 digits", far_gradient},
+    {"resistances", resistances},
+    {"amplitudes", amplitudes},
 };
 
 CHECK_MAIN("kelvin green", cases)
