@@ -39,6 +39,7 @@ static igabem_options plain(igabem_kernel kernel)
     igabem_options_init(&options);
     options.kernel = kernel;
     options.tolerance = 1e-6;
+    options.waterline_span = 0.0; /* orders want uniform knots */
     return options;
 }
 

@@ -24,6 +24,7 @@ static igabem_options setting(double fr, int nu, int nv)
     options.froude = fr;
     options.elements_u = nu;
     options.elements_v = nv;
+    options.waterline_span = 0.0; /* the reference has uniform knots */
     options.stem_limit = INFINITY;
     return options;
 }
