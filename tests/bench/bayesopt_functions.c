@@ -74,11 +74,11 @@ static double rosenbrock_log(size_t d, const double *u)
     return log(1 + sum);
 }
 
-static double levy(size_t d, const double *u)
+double levy_from(double low, size_t d, const double *u)
 {
     double sum = 0, w = 0;
     for (size_t j = 0; j < d; j++) {
-        w = 1 + (-10 + 20 * u[j] - 1) / 4;
+        w = 1 + (low + 20 * u[j] - 1) / 4;
         if (j == 0)
             sum += sin(pi * w) * sin(pi * w);
         if (j + 1 < d) {
@@ -88,6 +88,11 @@ static double levy(size_t d, const double *u)
     }
     double s = sin(2 * pi * w);
     return sum + (w - 1) * (w - 1) * (1 + s * s);
+}
+
+static double levy(size_t d, const double *u)
+{
+    return levy_from(-10, d, u);
 }
 
 /* A quadratic of five directions under a ripple: the shape of smooth latent spaces. */

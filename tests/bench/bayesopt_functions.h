@@ -20,6 +20,9 @@ extern const size_t n_test_functions;
 extern const struct test_function held_out_functions[];
 extern const size_t n_held_out_functions;
 
+/* Levy's function over a box from `low` to low + 20 in every direction. */
+double levy_from(double low, size_t d, const double *u);
+
 /* u [n x d] filled; splitmix64 and Fisher-Yates as the peers' runs did. */
 void peer_latin_hypercube(unsigned seed, size_t n, size_t d, double *u);
 

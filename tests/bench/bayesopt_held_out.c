@@ -69,18 +69,7 @@ static double rastrigin(size_t d, const double *u)
 
 static double levy5(size_t d, const double *u)
 {
-    double sum = 0, w = 0;
-    for (size_t j = 0; j < d; j++) {
-        w = 1 + (-8 + 20 * u[j] - 1) / 4;
-        if (j == 0)
-            sum += sin(pi * w) * sin(pi * w);
-        if (j + 1 < d) {
-            double s = sin(pi * w + 1);
-            sum += (w - 1) * (w - 1) * (1 + 10 * s * s);
-        }
-    }
-    double s = sin(2 * pi * w);
-    return sum + (w - 1) * (w - 1) * (1 + s * s);
+    return levy_from(-8, d, u);
 }
 
 /* Steep valleys that meet at a point. */
