@@ -47,7 +47,11 @@ struct bayesopt {
     int64_t session;
 };
 
-/* bayesopt.c */
+/* options.c */
+bayesopt_status options_check(size_t d, const double *lower, const double *upper,
+                              const bayesopt_options *o);
+
+/* problem.c */
 size_t problem_budget(const struct bayesopt *bo);
 /* Points of the initial phase. With two levels the design is evaluated at the cheap one, and the
  * first quarter of it at the dear one too. */

@@ -1,0 +1,123 @@
+/* Options of an optimisation: names, defaults, checks. */
+#include <math.h>
+
+#include "error.h"
+#include "internal.h"
+
+const char *bayesopt_phase_name(bayesopt_phase phase)
+{
+    static const char *const names[] = {"initial", "global",   "local",
+                                        "polish",  "external", "descent"};
+    return (unsigned)phase < sizeof names / sizeof *names ? names[phase] : "unknown";
+}
+
+const char *bayesopt_state_name(bayesopt_state state)
+{
+    static const char *const names[] = {"pending", "done", "failed"};
+    return (unsigned)state < sizeof names / sizeof *names ? names[state] : "unknown";
+}
+
+const char *bayesopt_strategy_name(bayesopt_strategy strategy)
+{
+    static const char *const names[] = {"auto", "global", "local"};
+    return (unsigned)strategy < sizeof names / sizeof *names ? names[strategy] : "unknown";
+}
+
+void bayesopt_options_init(bayesopt_options *options)
+{
+    *options = (bayesopt_options){
+        .seed = 1,
+        .initial_kind = BAYESOPT_DESIGN_ANNEALED_LHS,
+        .noise = BAYESOPT_NOISE_DETERMINISTIC,
+        .kernel = BAYESOPT_KERNEL_MATERN52,
+        .scales = BAYESOPT_SCALES_AUTO,
+        .transform = BAYESOPT_TRANSFORM_AUTO,
+        .strategy = BAYESOPT_STRATEGY_AUTO,
+        .mean = BAYESOPT_MEAN_CONSTANT,
+        .choice = BAYESOPT_CHOICE_POSTERIOR,
+        .polish = true,
+        .acquisition = BAYESOPT_ACQUISITION_EI,
+        .lcb_factor = 2,
+        .n_levels = 1,
+        .level_cost_ratio = 0.1,
+    };
+}
+
+static bayesopt_status check_box(size_t d, const double *lower, const double *upper)
+{
+    if (d < 1 || d > 1000)
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "%zu variables, expected 1 to 1000", d);
+    for (size_t j = 0; j < d; j++)
+        if (!isfinite(lower[j]) || !isfinite(upper[j]) || !(lower[j] < upper[j]) ||
+            !isfinite(upper[j] - lower[j]))
+            return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
+                                 "variable %zu: bounds %g and %g, expected finite and increasing",
+                                 j, lower[j], upper[j]);
+    return BAYESOPT_OK;
+}
+
+static bayesopt_status check_enumerations(const bayesopt_options *o)
+{
+    if ((unsigned)o->initial_kind > BAYESOPT_DESIGN_STLBO ||
+        (unsigned)o->noise > BAYESOPT_NOISE_LEARNED ||
+        (unsigned)o->kernel > BAYESOPT_KERNEL_MATERN52 ||
+        (unsigned)o->scales > BAYESOPT_SCALES_AUTO ||
+        (o->mean != BAYESOPT_MEAN_CONSTANT && o->mean != BAYESOPT_MEAN_LINEAR) ||
+        (unsigned)o->choice > BAYESOPT_CHOICE_LOO ||
+        (unsigned)o->transform > BAYESOPT_TRANSFORM_AUTO ||
+        (unsigned)o->strategy > BAYESOPT_STRATEGY_LOCAL ||
+        (unsigned)o->acquisition > BAYESOPT_ACQUISITION_LCB)
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
+                             "an option is outside its list: initial_kind %d, noise %d, kernel %d, "
+                             "scales %d, mean %d, choice %d, transform %d, strategy %d, "
+                             "acquisition %d",
+                             (int)o->initial_kind, (int)o->noise, (int)o->kernel, (int)o->scales,
+                             (int)o->mean, (int)o->choice, (int)o->transform, (int)o->strategy,
+                             (int)o->acquisition);
+    return BAYESOPT_OK;
+}
+
+bayesopt_status options_check(size_t d, const double *lower, const double *upper,
+                              const bayesopt_options *o)
+{
+    bayesopt_status status = check_box(d, lower, upper);
+    if (!status)
+        status = check_enumerations(o);
+    if (status)
+        return status;
+    if (o->initial_x && !o->initial_n)
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "initial_x without initial_n");
+    for (size_t i = 0; o->initial_x && i < o->initial_n * d; i++)
+        if (!(o->initial_x[i] >= lower[i % d] && o->initial_x[i] <= upper[i % d]))
+            return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
+                                 "initial_x: variable %zu of point %zu is %g, expected %g to %g",
+                                 i % d, i / d, o->initial_x[i], lower[i % d], upper[i % d]);
+    for (size_t i = 0; i < o->n_constraints; i++) {
+        double low = o->constraint_lower ? o->constraint_lower[i] : -INFINITY;
+        double high = o->constraint_upper ? o->constraint_upper[i] : 0;
+        if (!(low < high))
+            return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
+                                 "outcome constraint %zu: bounds %g and %g, expected increasing", i,
+                                 low, high);
+    }
+    if ((o->n_input_constraints > 0) != (o->input_constraint != NULL))
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
+                             "n_input_constraints is %zu but input_constraint is %s",
+                             o->n_input_constraints, o->input_constraint ? "given" : "NULL");
+    if (o->n_linear && (!o->linear_a || !o->linear_b))
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
+                             "n_linear is %zu without linear_a and linear_b", o->n_linear);
+    if (o->n_levels < 1 || o->n_levels > 2 ||
+        !(o->level_cost_ratio > 0 && o->level_cost_ratio <= 1))
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
+                             "%zu levels of cost ratio %g, expected 1 or 2 and a ratio in (0, 1]",
+                             o->n_levels, o->level_cost_ratio);
+    if (!(o->lcb_factor > 0 && isfinite(o->lcb_factor)))
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "lcb_factor is %g, expected positive",
+                             o->lcb_factor);
+    if (!(o->stop_expected_improvement >= 0))
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
+                             "stop_expected_improvement is %g, expected not negative",
+                             o->stop_expected_improvement);
+    return BAYESOPT_OK;
+}

@@ -1,0 +1,152 @@
+/* Results of points: told, failed, told from outside. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "error.h"
+#include "internal.h"
+#include "store.h"
+
+static char *copy_text(const char *text)
+{
+    char *copy = malloc(strlen(text) + 1);
+    return copy ? strcpy(copy, text) : NULL;
+}
+
+static double *copy_numbers(const double *from, size_t n)
+{
+    double *copy = malloc(n * sizeof *copy);
+    return copy ? memcpy(copy, from, n * sizeof *copy) : NULL;
+}
+
+static bool all_finite(const double *values, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!isfinite(values[i]))
+            return false;
+    return true;
+}
+
+static bayesopt_status check_result(const struct bayesopt *bo, const bayesopt_result *r)
+{
+    if (isfinite(r->f) && bo->options.n_constraints && !r->constraints)
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
+                             "a value was told without its %zu outcome constraints",
+                             bo->options.n_constraints);
+    if (!(r->variance >= 0 && isfinite(r->variance)))
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
+                             "variance %g was told, expected finite and not negative", r->variance);
+    return BAYESOPT_OK;
+}
+
+/* Writes a result into a pending point. A value that is not finite is a failure with a reason. */
+static bayesopt_status record(struct bayesopt *bo, struct point *p, const bayesopt_result *r)
+{
+    size_t m = bo->options.n_constraints;
+    const char *note = r->note;
+    char reason[96] = "";
+    bool done = isfinite(r->f) && (!m || all_finite(r->constraints, m));
+    if (!done && !note) {
+        if (isfinite(r->f))
+            snprintf(reason, sizeof reason, "an outcome constraint is not finite");
+        else
+            snprintf(reason, sizeof reason, "the objective is %g", r->f);
+        note = reason;
+    }
+    bool ok = true;
+    if (note)
+        ok = (p->note = copy_text(note)) != NULL;
+    if (ok && done && m)
+        ok = (p->constraints = copy_numbers(r->constraints, m)) != NULL;
+    if (ok && done && r->gradient && all_finite(r->gradient, bo->d))
+        ok = (p->gradient = copy_numbers(r->gradient, bo->d)) != NULL;
+    if (!ok)
+        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
+    p->state = done ? BAYESOPT_STATE_DONE : BAYESOPT_STATE_FAILED;
+    p->f = done ? r->f : NAN;
+    p->variance = done ? r->variance : 0;
+    bo->surrogates.fitted = false;
+    return BAYESOPT_OK;
+}
+
+static void unrecord(struct point *p)
+{
+    free(p->note);
+    free(p->constraints);
+    free(p->gradient);
+    p->note = NULL;
+    p->constraints = p->gradient = NULL;
+    p->state = BAYESOPT_STATE_PENDING;
+    p->f = NAN;
+    p->variance = 0;
+}
+
+bayesopt_status bayesopt_tell_result(bayesopt *bo, uint64_t id, const bayesopt_result *result)
+{
+    bayesopt_status status = check_result(bo, result);
+    if (!status)
+        status = store_begin(bo);
+    if (status)
+        return status;
+    struct point *p = history_find(bo, id);
+    if (!p)
+        status = bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "no point has id %llu, the last is %zu",
+                               (unsigned long long)id, bo->n_points);
+    else if (p->state != BAYESOPT_STATE_PENDING)
+        status = bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "point %llu has already been told",
+                               (unsigned long long)id);
+    if (!status) {
+        status = record(bo, p, result);
+        if (!status)
+            status = store_update(bo, p);
+        if (!status)
+            status = store_commit(bo);
+        if (status)
+            unrecord(p);
+    }
+    if (status)
+        store_rollback(bo);
+    return status;
+}
+
+bayesopt_status bayesopt_tell(bayesopt *bo, uint64_t id, double f, const double *constraints)
+{
+    bayesopt_result result = {.f = f, .constraints = constraints};
+    return bayesopt_tell_result(bo, id, &result);
+}
+
+bayesopt_status bayesopt_tell_failed(bayesopt *bo, uint64_t id, const char *reason)
+{
+    bayesopt_result result = {.f = NAN, .note = reason ? reason : ""};
+    return bayesopt_tell_result(bo, id, &result);
+}
+
+bayesopt_status bayesopt_tell_point(bayesopt *bo, const double *x, double f,
+                                    const double *constraints)
+{
+    bayesopt_result result = {.f = f, .constraints = constraints};
+    for (size_t j = 0; j < bo->d; j++)
+        if (!(x[j] >= bo->lower[j] && x[j] <= bo->upper[j]))
+            return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
+                                 "variable %zu of the told point is %g, expected %g to %g", j, x[j],
+                                 bo->lower[j], bo->upper[j]);
+    bayesopt_status status = check_result(bo, &result);
+    if (!status)
+        status = store_begin(bo);
+    if (status)
+        return status;
+    size_t before = bo->n_points;
+    uint64_t id = before ? bo->points[before - 1].id + 1 : 1;
+    struct point *p = history_append(bo, id, x, BAYESOPT_PHASE_EXTERNAL);
+    status = p ? record(bo, p, &result) : bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
+    if (!status)
+        status = store_insert(bo, p);
+    if (!status)
+        status = store_commit(bo);
+    if (status) {
+        store_rollback(bo);
+        history_truncate(bo, before);
+    }
+    return status;
+}
