@@ -57,7 +57,8 @@ static void test_all_fields(void)
         "line_term: off, cutoff_factor: 1.5,\n"
         "         cutoff_angle: 5, stem_limit: 0.4, stern_length: 0.3, stern_blend: 0.02,\n"
         "         spectrum_limit: 30, tolerance: 1e-4}\n"
-        "constraints: {displacement: 0.02, breadth: 0.2, entrance: 1.25, pressure: 1.1}\n"
+        "constraints: {displacement: 0.02, breadth: 0.2, entrance: 1.25, pressure: 1.1, speeds: "
+        "1.05}\n"
         "search: {initial: 12, iterations: 6, design: sobol, strategy: global, seed: 3}\n"
         "verification: {refine: 3, froude: [0.28, 0.41]}\n",
         &c));
@@ -80,6 +81,7 @@ static void test_all_fields(void)
     CU_ASSERT_EQUAL(c.breadth, 0.2);
     CU_ASSERT_EQUAL(c.entrance, 1.25);
     CU_ASSERT_EQUAL(c.pressure, 1.1);
+    CU_ASSERT_EQUAL(c.speeds, 1.05);
     CU_ASSERT_EQUAL(c.design, BAYESOPT_DESIGN_SOBOL);
     CU_ASSERT_EQUAL(c.strategy, BAYESOPT_STRATEGY_GLOBAL);
     CU_ASSERT_EQUAL(c.search_seed, 3);
@@ -139,6 +141,7 @@ static const struct {
     {"constraints:\n  entrance: 0.9\n", ":6:", "constraints.entrance"},
     {"waves:\n  along: 1\n", ":6:", "waves.along"},
     {"verification:\n  froude: [0.3, -1]\n", ":6:", "verification.froude"},
+    {"constraints:\n  speeds: 1\n", ":6:", "verification.froude"},
     {"colour: red\n", ":5:", "unknown field 'colour'"},
     {"search:\n  initial: 5\n  budget: 7\n", ":7:", "unknown field 'budget'"},
     {"search: 5\n", ":5:", "search"},

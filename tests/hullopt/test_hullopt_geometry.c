@@ -5,6 +5,7 @@
 #include "entrance.h"
 #include "evaluate.h"
 #include "limits.h"
+#include "outcome.h"
 #include "parent.h"
 #include "stations.h"
 #include "volume.h"
@@ -246,15 +247,39 @@ static void test_allowed_designs(void)
 {
     struct evaluation parent = {.id = 0, .cw = 2, .cw_pressure = 3};
     struct evaluation better = {.id = 5, .cw = 1, .cw_pressure = 3.2};
-    CU_ASSERT_TRUE(evaluation_allowed(&better, &parent, NAN));
-    CU_ASSERT_TRUE(evaluation_allowed(&better, &parent, 1.1));
-    CU_ASSERT_FALSE(evaluation_allowed(&better, &parent, 1));
-    CU_ASSERT_TRUE(evaluation_allowed(&parent, &parent, 0.5));
+    const struct outcome_limits none = {NAN, NAN}, loose = {1.1, NAN}, tight = {1, NAN},
+                                speeds = {NAN, 1};
+    CU_ASSERT_TRUE(outcome_allowed(&none, &better, &parent));
+    CU_ASSERT_TRUE(outcome_allowed(&loose, &better, &parent));
+    CU_ASSERT_FALSE(outcome_allowed(&tight, &better, &parent));
+    CU_ASSERT_TRUE(outcome_allowed(&tight, &parent, &parent));
     better.failed = true;
-    CU_ASSERT_FALSE(evaluation_allowed(&better, &parent, NAN));
+    CU_ASSERT_FALSE(outcome_allowed(&none, &better, &parent));
     parent.cw_pressure = better.cw_pressure = NAN;
     better.failed = false;
-    CU_ASSERT_FALSE(evaluation_allowed(&better, &parent, 1));
+    CU_ASSERT_FALSE(outcome_allowed(&tight, &better, &parent));
+    parent.speeds = better.speeds = 2;
+    parent.cw_speed[0] = parent.cw_speed[1] = 1;
+    better.cw_speed[0] = 0.5;
+    better.cw_speed[1] = 1.01;
+    CU_ASSERT_FALSE(outcome_allowed(&speeds, &better, &parent));
+    CU_ASSERT_TRUE(outcome_allowed(&none, &better, &parent));
+    better.cw_speed[1] = 0.99;
+    CU_ASSERT_TRUE(outcome_allowed(&speeds, &better, &parent));
+    better.cw_speed[0] = NAN;
+    CU_ASSERT_FALSE(outcome_allowed(&speeds, &better, &parent));
+    double bound[OUTCOME_MOST], ratio[OUTCOME_MOST];
+    const struct outcome_limits both = {1.1, 1};
+    better.cw_speed[0] = 0.25;
+    parent.cw_pressure = 2;
+    better.cw_pressure = 1;
+    CU_ASSERT_EQUAL_FATAL(outcome_bounds(&both, 2, bound), 3);
+    outcome_ratios(&both, &better, &parent, ratio);
+    CU_ASSERT_EQUAL(bound[0], 1.1);
+    CU_ASSERT_EQUAL(bound[2], 1);
+    CU_ASSERT_EQUAL(ratio[0], 0.5);
+    CU_ASSERT_EQUAL(ratio[1], 0.25);
+    CU_ASSERT_EQUAL(ratio[2], 0.99);
 }
 
 static const struct check_case cases[] = {

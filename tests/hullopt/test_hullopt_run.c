@@ -145,6 +145,45 @@ static void test_report_again(void)
     json_decref(printed);
 }
 
+/* C_w at other speeds as a constraint: told to the search, kept by the best, and the same figures
+ * as the verification's. */
+static void test_speeds(void)
+{
+    char text[900], path[200], folder[200];
+    snprintf(text, sizeof text,
+             "hull: %s\nshape: " EXAMPLES_DIR "/wigley_shape.yaml\nflow: {froude: 0.316}\n"
+             "grid: {sections: 21, girth: 9}\nlatent: {samples: 200}\n"
+             "solver: {formulation: hogner, tolerance: 1e-3}\n"
+             "reconstruction: {tolerance: 1e-3}\nconstraints: {speeds: 1.02}\n"
+             "search: {initial: 8, iterations: 5}\n"
+             "verification: {refine: 1, froude: [0.27, 0.4]}\nwaves: {along: 6, across: 4}\n",
+             WIGLEY);
+    runner_write(&runner, "speeds.yaml", text);
+    runner_path(&runner, "speeds.yaml", path, sizeof path);
+    runner_path(&runner, "speeds", folder, sizeof folder);
+    const char *const run[] = {"run", path, "--out", folder, "--json", NULL};
+    CU_ASSERT_EQUAL_FATAL(runner_run(&runner, run), 0);
+    json_t *s = json_loads(runner.out, 0, NULL);
+    CU_ASSERT_PTR_NOT_NULL_FATAL(s);
+    const json_t *limit = json_object_get(json_object_get(s, "constraints"), "speeds");
+    CU_ASSERT_EQUAL(number(limit, "allowed", NULL), 1.02);
+    CU_ASSERT_TRUE(json_is_true(json_object_get(limit, "satisfied")));
+    CU_ASSERT_TRUE(number(limit, "largest_ratio", NULL) <= 1.02);
+    const json_t *rows = json_object_get(s, "verification");
+    const json_t *before = json_object_get(json_object_get(s, "baseline"), "cw_speeds");
+    const json_t *after = json_object_get(json_object_get(s, "best"), "cw_speeds");
+    CU_ASSERT_EQUAL_FATAL(json_array_size(before), 2);
+    CU_ASSERT_EQUAL_FATAL(json_array_size(after), 2);
+    for (size_t i = 0; i < 2; i++) {
+        const json_t *row = json_array_get(rows, json_array_size(rows) - 2 + i);
+        CHECK_RELATIVE(json_number_value(json_array_get(before, i)), number(row, "cw_before", NULL),
+                       1e-10);
+        CHECK_RELATIVE(json_number_value(json_array_get(after, i)), number(row, "cw_after", NULL),
+                       1e-10);
+    }
+    json_decref(s);
+}
+
 static void check_refusal(const char *const *arguments, int code, const char *part)
 {
     int got = runner_run(&runner, arguments);
@@ -296,6 +335,7 @@ static const struct check_case cases[] = {
     {"hull files", test_hulls},
     {"report", test_report},
     {"report again", test_report_again},
+    {"other speeds bounded", test_speeds},
     {"a folder that holds a run", test_existing_run},
     {"usage", test_usage},
     {"bad hulls", test_bad_hulls},

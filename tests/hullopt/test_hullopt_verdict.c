@@ -121,24 +121,31 @@ static void test_plan(void)
     frozen.stern_length = 0.35;
     frozen.cutoff_angle = 5.0;
     frozen.stem_limit = 0.35;
-    size_t n = verify_plan(&config, &frozen, rows, options);
+    igabem_options speeds[2] = {frozen, frozen};
+    speeds[0].froude = 0.28;
+    speeds[0].stern_length = 0.224; /* by the rule at that speed */
+    speeds[1].froude = 0.41;
+    size_t n = verify_plan(&config, &frozen, speeds, rows, options);
     CU_ASSERT_EQUAL(n, 1 + 4 + 2 + 1 + 1 + 2);
     CU_ASSERT_STRING_EQUAL(rows[0].group, "objective");
     for (size_t i = 1; i < n; i++) {
+        int speed = options[i].froude != frozen.froude;
         int changed = (options[i].formulation != frozen.formulation) +
-                      (options[i].stern_length != frozen.stern_length) +
-                      (options[i].refine != frozen.refine) + (options[i].froude != frozen.froude) +
+                      (!speed && options[i].stern_length != frozen.stern_length) +
+                      (options[i].refine != frozen.refine) + speed +
                       (isnan(options[i].cutoff_angle) && isnan(options[i].stem_limit));
         CU_ASSERT_EQUAL(changed, 1);
         CU_ASSERT_EQUAL(options[i].froude, rows[i].froude);
         CU_ASSERT_EQUAL(options[i].refine, rows[i].refine);
     }
+    CU_ASSERT_EQUAL(options[n - 2].stern_length, 0.224);
+    CU_ASSERT_EQUAL(rows[n - 2].stern_length, 0.224);
     frozen.formulation = IGABEM_NEUMANN_KELVIN;
     config.verify_refine = 1;
     config.verify_froudes = 0;
-    CU_ASSERT_EQUAL(verify_plan(&config, &frozen, rows, options), 1 + 4 + 1);
+    CU_ASSERT_EQUAL(verify_plan(&config, &frozen, speeds, rows, options), 1 + 4 + 1);
     frozen.cutoff_angle = INFINITY; /* submerged: no filter to choose */
-    CU_ASSERT_EQUAL(verify_plan(&config, &frozen, rows, options), 1 + 4);
+    CU_ASSERT_EQUAL(verify_plan(&config, &frozen, speeds, rows, options), 1 + 4);
 }
 
 static const struct check_case cases[] = {

@@ -114,6 +114,7 @@ static bool read_latent(const char *path, const struct config_file *file, struct
         {"constraints.breadth", file->constraints.breadth, 0, 1, true, &config->breadth},
         {"constraints.entrance", file->constraints.entrance, 1, 10, true, &config->entrance},
         {"constraints.pressure", file->constraints.pressure, 0, 10, true, &config->pressure},
+        {"constraints.speeds", file->constraints.speeds, 0, 10, true, &config->speeds},
     };
     size_t seed = 1;
     if (!read_count(path, "grid.sections", file->grid.sections, 4, 2000, &config->sections) ||
@@ -245,7 +246,10 @@ static bool read_verification(const char *path, const struct config_file *file,
         if (!read_number(path, &number))
             return false;
     }
-    return true;
+    if (isnan(config->speeds) || config->verify_froudes)
+        return true;
+    cli_yaml_fail(path, "constraints.speeds", "needs a list of speeds in verification.froude");
+    return false;
 }
 
 static bool read_waves(const char *path, const struct config_file *file, struct config *config)
@@ -266,6 +270,7 @@ static void set_defaults(struct config *config)
     config->breadth = NAN;
     config->entrance = NAN;
     config->pressure = NAN;
+    config->speeds = NAN;
     config->initial = 200;
     config->iterations = 100;
     config->design = BAYESOPT_DESIGN_STLBO;
@@ -331,6 +336,7 @@ static void write_settings(FILE *out, const struct config *c)
     write_limit(out, "constraints.breadth", c->breadth);
     write_limit(out, "constraints.entrance", c->entrance);
     write_limit(out, "constraints.pressure", c->pressure);
+    write_limit(out, "constraints.speeds", c->speeds);
     write_line(out, "flow.froude", s->froude);
     write_line(out, "flow.gravity", s->gravity);
     write_line(out, "flow.density", s->density);

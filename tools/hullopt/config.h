@@ -24,6 +24,7 @@ struct config {
     double displacement; /* largest relative change of the volume; NAN: not constrained */
     double entrance;     /* largest nu_s of the waterline over that of the parent; NAN: any */
     double pressure;     /* largest pressure resistance over that of the parent; NAN: any */
+    double speeds;       /* largest C_w at each of verify_froude over the parent's; NAN: any */
     double breadth; /* least share of its half breadth that a wet point keeps; NAN: any from 0 */
     size_t initial, iterations;
     bayesopt_design_kind design;

@@ -46,11 +46,9 @@ static const cyaml_schema_field_t solver[] = {
 };
 
 static const cyaml_schema_field_t constraints[] = {
-    OPTIONAL(displacement, config_constraints),
-    OPTIONAL(breadth, config_constraints),
-    OPTIONAL(entrance, config_constraints),
-    OPTIONAL(pressure, config_constraints),
-    CYAML_FIELD_END,
+    OPTIONAL(displacement, config_constraints), OPTIONAL(breadth, config_constraints),
+    OPTIONAL(entrance, config_constraints),     OPTIONAL(pressure, config_constraints),
+    OPTIONAL(speeds, config_constraints),       CYAML_FIELD_END,
 };
 
 static const cyaml_schema_field_t search[] = {

@@ -25,7 +25,7 @@ struct config_file {
             *cutoff_factor, *stem_limit, *stern_length, *stern_blend, *spectrum_limit, *tolerance;
     } solver;
     struct config_constraints {
-        char *displacement, *breadth, *entrance, *pressure;
+        char *displacement, *breadth, *entrance, *pressure, *speeds;
     } constraints;
     struct config_search {
         char *initial, *iterations, *design, *strategy, *seed;

@@ -1,5 +1,6 @@
 #include "drawings.h"
 
+#include "outcome.h"
 #include "svg.h"
 
 #include <math.h>
@@ -67,11 +68,10 @@ static void draw_points(FILE *out, const struct svg_frame *f, const struct resul
 static void draw_incumbent(FILE *out, const struct svg_frame *f, const struct results *r)
 {
     double best = INFINITY;
-    double pressure = results_number(r->settings, "constraints.pressure");
     fprintf(out, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"2.4\" d=\"", SVG_OPTIMUM);
     for (size_t i = 0; i < r->n; i++) {
         const struct evaluation *e = &r->evaluations[i];
-        if (evaluation_allowed(e, r->baseline, pressure) && e->cw < best) {
+        if (outcome_allowed(&r->limits, e, r->baseline) && e->cw < best) {
             if (isfinite(best))
                 fprintf(out, "H%.1fV%.1f", svg_x(f, (double)i), svg_y(f, e->cw));
             else

@@ -17,6 +17,8 @@ bool evaluation_create(size_t modes, struct evaluation *e)
                              .volume_ratio = NAN,
                              .wetted_area = NAN,
                              .bound = NAN};
+    for (size_t i = 0; i < CONFIG_FROUDE_MOST; i++)
+        e->cw_speed[i] = NAN;
     e->u = calloc(modes, sizeof *e->u);
     return e->u != NULL;
 }
@@ -25,14 +27,6 @@ void evaluation_free(struct evaluation *evaluation)
 {
     free(evaluation->u);
     *evaluation = (struct evaluation){0};
-}
-
-bool evaluation_allowed(const struct evaluation *evaluation, const struct evaluation *parent,
-                        double pressure)
-{
-    return !evaluation->failed &&
-           (isnan(pressure) || evaluation->cw_pressure <= pressure * parent->cw_pressure ||
-            evaluation->id == parent->id);
 }
 
 static bool make_hull(const struct parent *parent, const struct design *design, igabem_hull **hull,
@@ -81,7 +75,9 @@ bool evaluator_create(const struct config *config, const struct parent *parent,
                                     .latent = latent,
                                     .tolerance = config->tolerance,
                                     .displacement = config->displacement,
-                                    .solver = config->solver};
+                                    .limits = {config->pressure, config->speeds},
+                                    .solver = config->solver,
+                                    .speeds = config->verify_froudes};
     if (!evaluate_build(evaluator, NULL, &design, &hull, &failure)) {
         cli_fail("%s: the parent cannot be built (%s): %s", config->hull, failure.stage,
                  failure.reason);
@@ -92,6 +88,11 @@ bool evaluator_create(const struct config *config, const struct parent *parent,
     igabem_hull_get_info(hull, &info);
     evaluator->parent_nu_s = info.nu_s;
     bool ok = igabem_options_freeze(hull, &evaluator->solver) == IGABEM_OK;
+    for (size_t i = 0; i < evaluator->speeds && ok; i++) {
+        evaluator->speed[i] = config->solver;
+        evaluator->speed[i].froude = config->verify_froude[i];
+        ok = igabem_options_freeze(hull, &evaluator->speed[i]) == IGABEM_OK;
+    }
     if (!ok)
         cli_fail("%s: %s", config->path, igabem_last_error());
     else if (!isnan(config->pressure) && !has_pressure(evaluator->solver.formulation))
@@ -126,26 +127,52 @@ static bool check_displacement(const struct evaluator *evaluator, const struct e
                        100 * change, 100 * evaluator->displacement);
 }
 
-static bool solve(const struct evaluator *evaluator, const igabem_hull *hull, struct evaluation *e,
-                  struct failure *failure)
+static bool compute_forces(const igabem_solution *solution, igabem_forces *forces,
+                           struct failure *failure)
 {
-    igabem_solution *solution;
-    igabem_forces forces;
-    if (igabem_solve(hull, &evaluator->solver, &solution) != IGABEM_OK)
-        return failure_set(failure, "solve", "%s", igabem_last_error());
-    bool ok = igabem_forces_compute(solution, &forces) == IGABEM_OK;
-    igabem_solution_free(solution);
-    if (!ok)
+    if (igabem_forces_compute(solution, forces) != IGABEM_OK)
         return failure_set(failure, "forces", "%s", igabem_last_error());
+    if (!(forces->cw > 0 && isfinite(forces->cw)))
+        return failure_set(failure, "forces", "C_w is %g at Fr %g, expected a positive number",
+                           forces->cw, igabem_solution_options(solution)->froude);
+    return true;
+}
+
+static bool record(igabem_solution *const *solutions, struct evaluation *e, struct failure *failure)
+{
+    igabem_forces forces;
+    for (size_t i = 0; i < e->speeds; i++) {
+        if (!compute_forces(solutions[1 + i], &forces, failure))
+            return false;
+        e->cw_speed[i] = forces.cw;
+    }
+    if (!compute_forces(solutions[0], &forces, failure))
+        return false;
+    e->cw = forces.cw;
     e->cw_pressure = forces.cw_pressure;
     e->rw = forces.rw;
     e->share_beyond_cutoff = forces.share_beyond_cutoff;
     e->condition = forces.condition;
     e->dofs = forces.dofs;
-    if (!(forces.cw > 0 && isfinite(forces.cw)))
-        return failure_set(failure, "forces", "C_w is %g, expected a positive number", forces.cw);
-    e->cw = forces.cw;
     return true;
+}
+
+/* The speed of the search, and the others when the configuration bounds C_w there. */
+static bool solve(const struct evaluator *evaluator, const igabem_hull *hull, struct evaluation *e,
+                  struct failure *failure)
+{
+    igabem_solution *solutions[1 + CONFIG_FROUDE_MOST];
+    igabem_options options[1 + CONFIG_FROUDE_MOST];
+    e->speeds = isnan(evaluator->limits.speeds) ? 0 : evaluator->speeds;
+    options[0] = evaluator->solver;
+    for (size_t i = 0; i < e->speeds; i++)
+        options[1 + i] = evaluator->speed[i];
+    if (igabem_solve_many(hull, 1 + e->speeds, options, solutions) != IGABEM_OK)
+        return failure_set(failure, "solve", "%s", igabem_last_error());
+    bool ok = record(solutions, e, failure);
+    for (size_t i = 0; i <= e->speeds; i++)
+        igabem_solution_free(solutions[i]);
+    return ok;
 }
 
 void evaluate(struct evaluator *evaluator, struct evaluation *e)

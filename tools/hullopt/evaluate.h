@@ -17,6 +17,8 @@ struct evaluation {
     bool failed;
     char stage[STAGE_SIZE], reason[REASON_SIZE]; /* of the failure, else "" */
     double cw, cw_pressure, rw, share_beyond_cutoff, condition;
+    size_t speeds; /* of cw_speed; 0: not solved at other speeds */
+    double cw_speed[CONFIG_FROUDE_MOST];
     double volume, volume_ratio, wetted_area, bound;
     size_t dofs;
     double propose_seconds, geometry_seconds, solve_seconds;
@@ -25,20 +27,23 @@ struct evaluation {
 bool evaluation_create(size_t modes, struct evaluation *evaluation);
 void evaluation_free(struct evaluation *evaluation);
 
-/* Whether a design can be the best: evaluated, and with a pressure resistance of at most `pressure`
- * (NAN: any) times the parent's. */
-bool evaluation_allowed(const struct evaluation *evaluation, const struct evaluation *parent,
-                        double pressure);
+/* Largest ratios to the parent: resistance by pressure, C_w at every other speed. NAN: any. */
+struct outcome_limits {
+    double pressure, speeds;
+};
 
 struct evaluator {
     const struct parent *parent;
     const struct latent *latent;
     double tolerance;
-    double displacement;   /* allowed relative change of volume, NAN: any */
-    double parent_volume;  /* m^3, of the parent built in the same way */
-    double parent_nu_s;    /* of its waterline */
+    double displacement;  /* allowed relative change of volume, NAN: any */
+    double parent_volume; /* m^3, of the parent built in the same way */
+    double parent_nu_s;   /* of its waterline */
+    struct outcome_limits limits;
     igabem_options solver; /* frozen on the parent */
-    double *scratch;       /* coordinates numbers, owned */
+    size_t speeds;         /* the same at the speeds of the verification */
+    igabem_options speed[CONFIG_FROUDE_MOST];
+    double *scratch; /* coordinates numbers, owned */
 };
 
 /* Builds the parent, freezes the solver's options on it. On failure prints the sentence. */

@@ -78,6 +78,24 @@ static void resistance_row(FILE *out, const char *label, double before, double a
                 after <= most * before ? "kept" : "violated");
 }
 
+/* Only the speeds that were solved with every design; the others are in the verification. */
+static void speed_rows(FILE *out, const struct results *r)
+{
+    char label[80];
+    size_t row = 0;
+    for (size_t i = 0; i < r->best->speeds; i++) {
+        while (row < r->n_rows && strcmp(r->rows[row].group, "speed") != 0)
+            row++;
+        if (row < r->n_rows)
+            snprintf(label, sizeof label, "The same, Kochin function, Fr %g",
+                     r->rows[row++].froude);
+        else
+            snprintf(label, sizeof label, "The same, Kochin function, speed %zu", i + 1);
+        resistance_row(out, label, r->baseline->cw_speed[i], r->best->cw_speed[i],
+                       r->limits.speeds);
+    }
+}
+
 void report_particulars(FILE *out, const struct results *r)
 {
     struct particular list[PARTICULARS_MOST];
@@ -89,7 +107,8 @@ void report_particulars(FILE *out, const struct results *r)
     resistance_row(out, "Wave resistance coefficient, Kochin function", r->baseline->cw,
                    r->best->cw, NAN);
     resistance_row(out, "Wave resistance coefficient, pressure", r->baseline->cw_pressure,
-                   r->best->cw_pressure, results_number(r->settings, "constraints.pressure"));
+                   r->best->cw_pressure, r->limits.pressure);
+    speed_rows(out, r);
     displacement_row(out, r);
     breadth_row(out, r);
     entrance_row(out, r);

@@ -2,6 +2,7 @@
 
 #include "cli.h"
 #include "limits.h"
+#include "outcome.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -53,13 +54,14 @@ static bool load_parent(struct store *store, struct results *r)
 
 static void find_best(struct results *r)
 {
-    double pressure = results_number(r->settings, "constraints.pressure");
+    r->limits = (struct outcome_limits){results_number(r->settings, "constraints.pressure"),
+                                        results_number(r->settings, "constraints.speeds")};
     for (size_t i = 0; i < r->n; i++) {
         const struct evaluation *e = &r->evaluations[i];
         r->failed += e->failed;
         if (e->id == 0)
             r->baseline = e;
-        if (evaluation_allowed(e, r->evaluations, pressure) && (!r->best || e->cw < r->best->cw))
+        if (outcome_allowed(&r->limits, e, r->evaluations) && (!r->best || e->cw < r->best->cw))
             r->best = e;
     }
 }

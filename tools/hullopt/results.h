@@ -13,6 +13,7 @@ struct results {
     char *solver;   /* the solver's options as frozen on the parent, same form */
     char *stop;     /* why the search ended, NULL while it has not */
     bool complete;  /* search, verification and wave patterns are all there */
+    struct outcome_limits limits;
     struct latent latent;
     struct parent parent; /* length and grid; no file */
     struct evaluation *evaluations;

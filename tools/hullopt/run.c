@@ -2,6 +2,7 @@
 
 #include "cli.h"
 #include "folder.h"
+#include "outcome.h"
 #include "outputs.h"
 #include "search.h"
 #include "shape_yaml.h"
@@ -185,14 +186,15 @@ static bool back_map(const struct config *config, const struct parent *parent,
     return ok;
 }
 
-static bool find_best(struct store *store, size_t modes, double pressure, double **u)
+static bool find_best(struct store *store, const struct outcome_limits *limits, size_t modes,
+                      double **u)
 {
     struct evaluation *list;
     size_t n, best = 0;
     if (!store_list_evaluations(store, modes, &list, &n))
         return false;
     for (size_t i = 0; i < n; i++)
-        if (evaluation_allowed(&list[i], &list[0], pressure) && list[i].cw < list[best].cw)
+        if (outcome_allowed(limits, &list[i], &list[0]) && list[i].cw < list[best].cw)
             best = i;
     *u = NULL;
     bool ok = true;
@@ -223,7 +225,7 @@ static bool run_stages(const struct run_options *options, const struct config *c
         ok = search_run(&search);
     }
     search_free(&search);
-    ok = ok && find_best(store, modes, config->pressure, &best) &&
+    ok = ok && find_best(store, &evaluator->limits, modes, &best) &&
          verify_run(config, evaluator, best, store) && waves_run(config, evaluator, best, store) &&
          (!best || back_map(config, parent, shape, evaluator->latent, best, store)) &&
          store_update_session(store);

@@ -1,6 +1,7 @@
 #include "search.h"
 
 #include "cli.h"
+#include "outcome.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -59,8 +60,9 @@ bool search_create(const struct config *config, struct evaluator *evaluator, con
     options.n_input_constraints = count_limits(config);
     options.input_constraint = known_limits;
     options.input_data = search;
-    options.n_constraints = isnan(config->pressure) ? 0u : 1u;
-    options.constraint_upper = &config->pressure;
+    double bound[OUTCOME_MOST];
+    options.n_constraints = outcome_bounds(&evaluator->limits, evaluator->speeds, bound);
+    options.constraint_upper = bound;
     if (bayesopt_create(latent->modes, latent->lower, latent->upper, &options, &search->bo) !=
             BAYESOPT_OK ||
         bayesopt_open_store(search->bo, path) != BAYESOPT_OK) {
@@ -107,9 +109,11 @@ static bool evaluate_parent(struct search *search)
     }
     search->parent = e;
     search->parent.u = NULL;
-    const double ratio = 1, *constraints = isnan(search->config->pressure) ? NULL : &ratio;
-    if (ok && bayesopt_count(search->bo) == 0)
-        ok = told(search, bayesopt_tell_point(search->bo, e.u, e.cw, constraints));
+    double ratio[OUTCOME_MOST];
+    if (ok && bayesopt_count(search->bo) == 0) {
+        outcome_ratios(&search->evaluator->limits, &e, &e, ratio);
+        ok = told(search, bayesopt_tell_point(search->bo, e.u, e.cw, ratio));
+    }
     if (found >= 0)
         evaluation_free(&e);
     return ok;
@@ -117,10 +121,10 @@ static bool evaluate_parent(struct search *search)
 
 static bool tell(struct search *search, const struct evaluation *e)
 {
-    const double ratio = e->cw_pressure / search->parent.cw_pressure;
-    const double *constraints = isnan(search->config->pressure) ? NULL : &ratio;
+    double ratio[OUTCOME_MOST];
+    outcome_ratios(&search->evaluator->limits, e, &search->parent, ratio);
     if (!e->failed)
-        return told(search, bayesopt_tell(search->bo, e->id, e->cw, constraints));
+        return told(search, bayesopt_tell(search->bo, e->id, e->cw, ratio));
     char reason[STAGE_SIZE + REASON_SIZE + 2];
     snprintf(reason, sizeof reason, "%s: %s", e->stage, e->reason);
     return told(search, bayesopt_tell_failed(search->bo, e->id, reason));
@@ -211,7 +215,7 @@ static bool loop(struct search *search, double *u)
         if (ok) {
             done++;
             failed += e.failed;
-            if (evaluation_allowed(&e, &search->parent, search->config->pressure))
+            if (outcome_allowed(&search->evaluator->limits, &e, &search->parent))
                 best = fmin(best, e.cw);
             evaluation_free(&e);
         }

@@ -18,7 +18,7 @@ static const char TABLES[] =
     " u BLOB NOT NULL, failed INTEGER NOT NULL, stage TEXT NOT NULL, reason TEXT NOT NULL,"
     " cw REAL, cw_pressure REAL, rw REAL, share_beyond_cutoff REAL, condition REAL, volume REAL,"
     " volume_ratio REAL, wetted_area REAL, bound REAL, dofs INTEGER NOT NULL,"
-    " propose_seconds REAL, geometry_seconds REAL, solve_seconds REAL);"
+    " propose_seconds REAL, geometry_seconds REAL, solve_seconds REAL, cw_speeds BLOB);"
     "CREATE TABLE hullopt_verification (position INTEGER PRIMARY KEY, family TEXT NOT NULL,"
     " label TEXT NOT NULL, formulation TEXT NOT NULL, froude REAL, refine INTEGER,"
     " stern_length REAL, cw_parent REAL, cw_best REAL, cw_pressure_parent REAL,"

@@ -37,7 +37,7 @@ bool store_put_evaluation(struct store *store, size_t modes, const struct evalua
 {
     sqlite3_stmt *s = store_prepare(store, "INSERT INTO hullopt_evaluation VALUES (?1, ?2, ?3, ?4,"
                                            " ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15,"
-                                           " ?16, ?17, ?18, ?19)");
+                                           " ?16, ?17, ?18, ?19, ?20)");
     if (!s)
         return false;
     sqlite3_bind_int64(s, 1, (sqlite3_int64)e->id);
@@ -55,7 +55,18 @@ bool store_put_evaluation(struct store *store, size_t modes, const struct evalua
     store_bind(s, 17, e->propose_seconds);
     store_bind(s, 18, e->geometry_seconds);
     store_bind(s, 19, e->solve_seconds);
+    sqlite3_bind_blob64(s, 20, e->cw_speed, e->speeds * sizeof *e->cw_speed, SQLITE_STATIC);
     return store_finish(store, s);
+}
+
+/* Runs of version 0.1 have no such column. */
+static void read_speeds(sqlite3_stmt *s, struct evaluation *e)
+{
+    const void *speeds = sqlite3_column_count(s) > 19 ? sqlite3_column_blob(s, 19) : NULL;
+    size_t n = speeds ? (size_t)sqlite3_column_bytes(s, 19) / sizeof *e->cw_speed : 0;
+    e->speeds = n < CONFIG_FROUDE_MOST ? n : CONFIG_FROUDE_MOST;
+    if (e->speeds)
+        memcpy(e->cw_speed, speeds, e->speeds * sizeof *e->cw_speed);
 }
 
 static bool read_evaluation(struct store *store, sqlite3_stmt *s, size_t modes,
@@ -88,6 +99,7 @@ static bool read_evaluation(struct store *store, sqlite3_stmt *s, size_t modes,
     e->propose_seconds = store_column(s, 16);
     e->geometry_seconds = store_column(s, 17);
     e->solve_seconds = store_column(s, 18);
+    read_speeds(s, e);
     return true;
 }
 

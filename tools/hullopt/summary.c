@@ -38,6 +38,8 @@ static json_t *evaluation(const struct results *r, const struct evaluation *e)
     put(o, "cw", e->cw);
     put(o, "cw_pressure", e->cw_pressure);
     put(o, "rw", e->rw);
+    if (e->speeds)
+        json_object_set_new(o, "cw_speeds", array(e->speeds, e->cw_speed));
     put(o, "share_beyond_cutoff", e->share_beyond_cutoff);
     put(o, "condition", e->condition);
     put(o, "volume", e->volume);
@@ -46,6 +48,15 @@ static json_t *evaluation(const struct results *r, const struct evaluation *e)
     put(o, "simplification_bound", e->bound);
     json_object_set_new(o, "latent", array(r->latent.modes, e->u));
     return o;
+}
+
+/* Of C_w to the parent's over the speeds that were solved with every design; NAN without any. */
+static double largest_speed_ratio(const struct results *r)
+{
+    double largest = NAN;
+    for (size_t i = 0; i < r->best->speeds; i++)
+        largest = fmax(largest, r->best->cw_speed[i] / r->baseline->cw_speed[i]);
+    return largest;
 }
 
 static json_t *constraints(const struct results *r)
@@ -76,12 +87,19 @@ static json_t *constraints(const struct results *r)
     json_object_set_new(o, "entrance", entrance);
     json_t *pressure = json_object();
     double ratio = r->best->cw_pressure / r->baseline->cw_pressure;
-    most = results_number(r->settings, "constraints.pressure");
+    most = r->limits.pressure;
     put(pressure, "allowed", most);
     put(pressure, "before", r->baseline->cw_pressure);
     put(pressure, "after", r->best->cw_pressure);
     put_flag(pressure, "satisfied", isnan(most) || ratio <= most);
     json_object_set_new(o, "pressure", pressure);
+    json_t *speeds = json_object();
+    most = r->limits.speeds;
+    put(speeds, "allowed", most);
+    ratio = largest_speed_ratio(r);
+    put(speeds, "largest_ratio", ratio);
+    put_flag(speeds, "satisfied", isnan(most) || ratio <= most);
+    json_object_set_new(o, "speeds", speeds);
     return o;
 }
 

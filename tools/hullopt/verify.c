@@ -56,7 +56,8 @@ static void plan_models(const igabem_options *frozen, struct verification *rows,
 }
 
 size_t verify_plan(const struct config *config, const igabem_options *frozen,
-                   struct verification rows[VERIFY_MOST], igabem_options options[VERIFY_MOST])
+                   const igabem_options *speeds, struct verification rows[VERIFY_MOST],
+                   igabem_options options[VERIFY_MOST])
 {
     size_t n = 0;
     char label[80];
@@ -74,10 +75,8 @@ size_t verify_plan(const struct config *config, const igabem_options *frozen,
         add(rows, options, &n, "filter", "each hull's own filter", &own);
     }
     for (size_t i = 0; i < config->verify_froudes; i++) {
-        igabem_options other = *frozen;
-        other.froude = config->verify_froude[i];
-        snprintf(label, sizeof label, "Fr %g", other.froude);
-        add(rows, options, &n, "speed", label, &other);
+        snprintf(label, sizeof label, "Fr %g", speeds[i].froude);
+        add(rows, options, &n, "speed", label, &speeds[i]);
     }
     return n;
 }
@@ -119,14 +118,14 @@ static void solve_row(const igabem_hull *parent, const igabem_hull *best,
     row->seconds = cli_seconds() - start;
 }
 
-static bool solve_rows(const struct config *config, const igabem_options *frozen,
+static bool solve_rows(const struct config *config, const struct evaluator *evaluator,
                        const igabem_hull *parent, const igabem_hull *best, struct store *store,
                        size_t done)
 {
     struct verification rows[VERIFY_MOST];
     igabem_options options[VERIFY_MOST];
     struct cli_progress progress;
-    size_t n = verify_plan(config, frozen, rows, options);
+    size_t n = verify_plan(config, &evaluator->solver, evaluator->speed, rows, options);
     bool ok = true;
     cli_progress_start(&progress, "verification");
     for (size_t i = done; i < n && ok; i++) {
@@ -153,8 +152,7 @@ bool verify_run(const struct config *config, struct evaluator *evaluator, const 
               (!best || evaluate_build(evaluator, best, &designs[1], &hulls[1], &failure));
     if (!ok)
         cli_fail("verification: %s: %s", failure.stage, failure.reason);
-    ok = ok &&
-         solve_rows(config, &evaluator->solver, hulls[0], best ? hulls[1] : hulls[0], store, n);
+    ok = ok && solve_rows(config, evaluator, hulls[0], best ? hulls[1] : hulls[0], store, n);
     for (int k = 0; k < 2; k++) {
         igabem_hull_free(hulls[k]);
         design_free(&designs[k]);

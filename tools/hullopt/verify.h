@@ -9,9 +9,11 @@
 
 enum { VERIFY_MOST = 24 };
 
-/* The rows of a verification with their settings; results NAN. Returns how many. */
+/* The rows of a verification with their settings; results NAN. speeds: the options at each of
+ * config->verify_froude. Returns how many. */
 size_t verify_plan(const struct config *config, const igabem_options *frozen,
-                   struct verification rows[VERIFY_MOST], igabem_options options[VERIFY_MOST]);
+                   const igabem_options *speeds, struct verification rows[VERIFY_MOST],
+                   igabem_options options[VERIFY_MOST]);
 
 /* Solves what the store does not hold yet, a row at a time. best NULL: the parent is the best. */
 bool verify_run(const struct config *config, struct evaluator *evaluator, const double *best,
