@@ -84,19 +84,35 @@ igabem_hull *ellipsoid(double length, double beam, double height, double depth, 
     return hull_of(ellipsoid_surface(length, beam, height, depth, along, around));
 }
 
-igabem_hull *dtmb5415(const char *file, double tolerance)
+/* Largest z of the control net. */
+static double highest(const nurbs_surface *surface)
+{
+    size_t n = nurbs_surface_size(surface, 0) * nurbs_surface_size(surface, 1);
+    const double *points = nurbs_surface_points(surface);
+    double z = -INFINITY;
+    for (size_t k = 0; k < n; k++)
+        z = fmax(z, points[3 * k + 2]);
+    return z;
+}
+
+igabem_hull *hull_file(const char *file, double tolerance)
 {
     nurbs_patches *patches;
     nurbs_surface *wetted = NULL, *light = NULL;
     if (nurbs_patches_read(file, &patches))
         stop(file, nurbs_last_error());
+    const nurbs_surface *whole = nurbs_patches_get(patches, 0);
     double length = nurbs_patches_length(patches), bound;
-    nurbs_status status =
-        nurbs_surface_wetted(nurbs_patches_get(patches, 0), 0.0, 1e-5 * length, &wetted);
-    wetted = take(status, wetted, NULL, file);
-    status =
-        nurbs_surface_simplify(wetted, tolerance * length,
-                               NURBS_KEEP_EDGES | NURBS_KEEP_KINKS | NURBS_THRIFTY, &light, &bound);
+    nurbs_status status;
+    if (highest(whole) > 0.0) {
+        status = nurbs_surface_wetted(whole, 0.0, 1e-5 * length, &wetted);
+        wetted = take(status, wetted, NULL, file);
+        status = nurbs_surface_simplify(wetted, tolerance * length,
+                                        NURBS_KEEP_EDGES | NURBS_KEEP_KINKS | NURBS_THRIFTY, &light,
+                                        &bound);
+    } else {
+        status = nurbs_surface_copy(whole, &light);
+    }
     igabem_hull *hull = hull_of(take(status, light, wetted, file));
     nurbs_patches_free(patches);
     if (igabem_hull_set_length(hull, length))
@@ -140,9 +156,9 @@ static int wanted(int argc, char **argv, const char *section)
 int main(int argc, char **argv)
 {
     if (argc < 2) {
-        fprintf(
-            stderr,
-            "usage: igabem_validation HULL.json [double-body|spheroids|wigley|forms|tank|5415]\n");
+        fprintf(stderr,
+                "usage: igabem_validation HULL.json [double-body|spheroids|wigley|forms|tank|"
+                "5415|hulls]\n");
         return 2;
     }
     printf(
@@ -164,5 +180,7 @@ int main(int argc, char **argv)
         tank_section();
     if (wanted(argc, argv, "5415"))
         dtmb5415_section(argv[1]);
+    if (wanted(argc, argv, "hulls"))
+        hulls_section();
     return ferror(stdout) || fflush(stdout) ? EXIT_FAILURE : EXIT_SUCCESS;
 }

@@ -12,8 +12,9 @@ igabem_hull *ellipsoid(double length, double beam, double height, double depth, 
 nurbs_surface *ellipsoid_surface(double length, double beam, double height, double depth, int along,
                                  int around);
 
-/* The wetted DTMB 5415 of the file, simplified within tolerance (over its length). */
-igabem_hull *dtmb5415(const char *file, double tolerance);
+/* The wetted hull of a NURBS file, simplified within tolerance (over its length); a file that ends
+ * at the still water is used as it is. */
+igabem_hull *hull_file(const char *file, double tolerance);
 
 /* Default options at a Froude number. */
 igabem_options at_froude(double froude);
@@ -28,5 +29,6 @@ void wigley_section(void);
 void forms_section(void);
 void tank_section(void);
 void dtmb5415_section(const char *file);
+void hulls_section(void);
 
 #endif

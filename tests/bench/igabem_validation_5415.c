@@ -128,7 +128,7 @@ static void formulations(const char *file)
     igabem_forces forces[LEVELS][VARIANTS];
     const char *names[VARIANTS];
     size_t n = 0;
-    igabem_hull *hull = dtmb5415(file, 1e-4);
+    igabem_hull *hull = hull_file(file, 1e-4);
     for (int l = 0; l < LEVELS; l++) {
         n = variants(hull, 0.35, elements[l], options, names);
         solve_all(hull, n, options, forces[l]);
@@ -166,7 +166,7 @@ static void froude_numbers(const char *file)
     static igabem_options options[N * KINDS];
     static igabem_forces forces[N * KINDS];
     static const int elements[2] = {32, 10};
-    igabem_hull *hull = dtmb5415(file, 1e-4);
+    igabem_hull *hull = hull_file(file, 1e-4);
     for (int i = 0; i < N; i++)
         for (int k = 0; k < KINDS; k++) {
             options[KINDS * i + k] = model_scale(0.20 + 0.01 * i, kinds[k], elements);
@@ -196,7 +196,7 @@ static void growth(const char *file)
            "| unknowns | seconds |\n|---|---|\n",
            "wall clock of the machine that wrote this page");
     for (int l = 0; l < 5; l++) {
-        igabem_hull *hull = dtmb5415(file, 1e-4);
+        igabem_hull *hull = hull_file(file, 1e-4);
         igabem_options options = model_scale(0.35, IGABEM_AUTOMATIC, elements[l]);
         igabem_forces forces;
         solve_all(hull, 1, &options, &forces);
@@ -210,7 +210,7 @@ void dtmb5415_section(const char *file)
 {
     printf("## DTMB 5415, model scale\n\nLpp 5.72 m, g 9.803 m/s^2, C_w on the wetted area of both "
            "sides without the transom.\n\n");
-    igabem_hull *hull = dtmb5415(file, 1e-4);
+    igabem_hull *hull = hull_file(file, 1e-4);
     particulars(hull);
     igabem_hull_free(hull);
     published();
