@@ -97,14 +97,15 @@ static void froude_numbers(const igabem_hull *hull)
         for (int k = 0; k < KINDS; k++) {
             igabem_options *o = &options[KINDS * i + k];
             froude[i] = 0.20 + 0.01 * i;
-            *o = on_mesh(froude[i], 1);
+            *o = on_mesh(froude[i], 0);
             o->formulation = kinds[k];
             o->sensitivity = k == 0;
         }
     solve_all(hull, (size_t)N * KINDS, options, forces);
-    printf(
-        "| Fr | default | 0.85 t_c | 1.15 t_c | pressure | neumann-kelvin | double-body-kochin | "
-        "hogner | michell |\n|---|---|---|---|---|---|---|---|---|\n");
+    printf("C_w x 1000, %zu unknowns:\n\n| Fr | default | 0.85 t_c | 1.15 t_c | pressure | "
+           "double-body-kochin | hogner | michell |\n"
+           "|---|---|---|---|---|---|---|---|\n",
+           forces[0].dofs);
     for (int i = 0; i < N; i++) {
         const igabem_forces *f = forces + KINDS * i;
         cw[0][i] = f[0].cw;
@@ -150,9 +151,7 @@ void hulls_section(void)
 {
     printf("## Other transom hulls\n\nOf this project's own making (examples/hulls), default "
            "formulation. C_w x 1000 by Kochin function; the change is that between "
-           "the last two\nlevels, the spreads, pressure and the rest are those of the finest. "
-           "Sweep: %d x %d spans.\n\n",
-           meshes[1][0], meshes[1][1]);
+           "the last two\nlevels, the spreads, pressure and the rest are those of the finest.\n\n");
     hull_report("fast", "wide immersed transom, no bulb");
     hull_report("bulb", "bulb and narrow transom");
 }
