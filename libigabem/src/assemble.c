@@ -1,15 +1,11 @@
 #include "assemble.h"
 
-#include "error.h"
-
-#include <lapacke.h>
-#include <limits.h>
 #include <math.h>
 #include <omp.h>
-#include <stdlib.h>
 #include <string.h>
 
-void basis_row(const struct influence *influence, size_t point, double *row)
+/* Adds half the basis at a collocation point: the jump of the normal velocity. */
+static void add_jump(const struct influence *influence, size_t point, double *row)
 {
     const struct density *density = influence->density;
     const struct mesh *mesh = influence->mesh;
@@ -25,117 +21,63 @@ void basis_row(const struct influence *influence, size_t point, double *row)
         bernstein(element->degree[0], local[0], bu, NULL);
         bernstein(element->degree[1], local[1], bv, NULL);
         for (size_t k = 0; k < m * n; k++)
-            value[k] = bu[k / n] * bv[k % n] / jet.weight;
+            value[k] = 0.5 * bu[k / n] * bv[k % n] / jet.weight;
         element_scatter(element, 1, value, row, density->n);
         return;
     }
 }
 
-static void add_scaled(size_t n, double factor, const double *from, double *to)
+/* Normal and two tangents of a point, orthonormal: the first tangent avoids the axis nearest to the
+ * normal. */
+static void frame(const double *normal, double axis[3][3])
 {
-    for (size_t k = 0; k < n; k++)
-        to[k] += factor * from[k];
-}
-
-/* The three velocity rows of a point, [3][n], principal value. */
-static void velocity_rows(const struct system *system, size_t i, double *rows)
-{
-    size_t n = 3 * system->influence->density->n, at = n * i;
-    memcpy(rows, system->rankine + at, n * sizeof *rows);
-    if (system->image && system->image_weight[i] != 0.0)
-        add_scaled(n, system->image_weight[i], system->image + at, rows);
-    if (system->wave_weight[i] == 0.0)
-        return;
-    if (system->local)
-        add_scaled(n, system->wave_weight[i], system->local + at, rows);
-    if (system->wave)
-        add_scaled(n, system->wave_weight[i], system->wave + at, rows);
-}
-
-igabem_status system_matrix(const struct system *system, double *matrix)
-{
-    const struct density *density = system->influence->density;
-    size_t n = density->n;
-    int failed = 0;
-#pragma omp parallel num_threads(system->influence->threads) reduction(| : failed)
-    {
-        double *rows = malloc(4 * n * sizeof *rows), *basis = rows + 3 * n;
-        failed |= !rows;
-#pragma omp for
-        for (size_t i = 0; i < n; i++) {
-            if (failed)
-                continue;
-            const double *normal = density->normal + 3 * i;
-            double *row = matrix + n * i;
-            velocity_rows(system, i, rows);
-            memset(basis, 0, n * sizeof *basis);
-            basis_row(system->influence, i, basis);
-            for (size_t k = 0; k < n; k++)
-                row[k] = 0.5 * basis[k] + normal[0] * rows[k] + normal[1] * rows[n + k] +
-                         normal[2] * rows[2 * n + k];
-        }
-        free(rows);
+    int least = 0;
+    for (int c = 1; c < 3; c++)
+        if (fabs(normal[c]) < fabs(normal[least]))
+            least = c;
+    int a = (least + 1) % 3, b = (least + 2) % 3;
+    double length = hypot(normal[a], normal[b]);
+    memcpy(axis[0], normal, sizeof axis[0]);
+    axis[1][least] = 0.0;
+    axis[1][a] = -normal[b] / length;
+    axis[1][b] = normal[a] / length;
+    for (int c = 0; c < 3; c++) {
+        int d = (c + 1) % 3, e = (c + 2) % 3;
+        axis[2][c] = axis[0][d] * axis[1][e] - axis[0][e] * axis[1][d];
     }
-    return failed ? igabem_fail(IGABEM_ERROR_MEMORY, "no memory for matrix rows") : IGABEM_OK;
 }
 
-igabem_status system_velocity(const struct system *system, const double *sigma, double *velocity)
+void assemble_turn(const struct influence *influence, double *rows)
 {
-    const struct density *density = system->influence->density;
-    size_t n = density->n;
-    int failed = 0;
-#pragma omp parallel num_threads(system->influence->threads) reduction(| : failed)
-    {
-        double *rows = malloc(4 * n * sizeof *rows), *basis = rows + 3 * n;
-        failed |= !rows;
-#pragma omp for
-        for (size_t i = 0; i < n; i++) {
-            if (failed)
-                continue;
-            velocity_rows(system, i, rows);
-            memset(basis, 0, n * sizeof *basis);
-            basis_row(system->influence, i, basis);
-            double here = 0.0;
-            for (size_t k = 0; k < n; k++)
-                here += basis[k] * sigma[k];
-            for (size_t c = 0; c < 3; c++) {
-                double sum = 0.5 * here * density->normal[3 * i + c];
-                for (size_t k = 0; k < n; k++)
-                    sum += rows[c * n + k] * sigma[k];
-                velocity[c * n + i] = sum;
-            }
+    size_t n = influence->density->n;
+#pragma omp parallel for num_threads(influence->threads) schedule(dynamic, 16)
+    for (size_t i = 0; i < n; i++) {
+        double *row = rows + 3 * n * i, axis[3][3];
+        frame(influence->density->normal + 3 * i, axis);
+        for (size_t k = 0; k < n; k++) {
+            double v[3] = {row[k], row[n + k], row[2 * n + k]};
+            for (size_t c = 0; c < 3; c++)
+                row[c * n + k] = axis[c][0] * v[0] + axis[c][1] * v[1] + axis[c][2] * v[2];
         }
-        free(rows);
+        add_jump(influence, i, row);
     }
-    return failed ? igabem_fail(IGABEM_ERROR_MEMORY, "no memory for matrix rows") : IGABEM_OK;
 }
 
-igabem_status system_solve(size_t n, double *matrix, double *right, double *condition)
+void assemble_velocity(const struct influence *influence, const double *rows,
+                       const double *normal_velocity, const double *sigma, double *velocity)
 {
-    if (n > INT_MAX)
-        return igabem_fail(IGABEM_ERROR_ARGUMENT, "%zu unknowns are too many for LAPACK", n);
-    lapack_int order = (lapack_int)n;
-    lapack_int *pivots = malloc(n * sizeof *pivots);
-    if (!pivots)
-        return igabem_fail(IGABEM_ERROR_MEMORY, "no memory to solve for %zu unknowns", n);
-    /* Row-major storage is the transpose of LAPACK's, whose inf-norm is our 1-norm. */
-    double norm = LAPACKE_dlange(LAPACK_COL_MAJOR, 'I', order, order, matrix, order);
-    igabem_status status = IGABEM_OK;
-    if (!isfinite(norm))
-        status = igabem_fail(IGABEM_ERROR_NUMERIC, "the influence matrix is not finite");
-    else if (LAPACKE_dgetrf(LAPACK_COL_MAJOR, order, order, matrix, order, pivots) != 0)
-        status = igabem_fail(IGABEM_ERROR_NUMERIC, "the influence matrix is singular");
-    if (status == IGABEM_OK) {
-        double reciprocal = 0.0;
-        if (condition) {
-            LAPACKE_dgecon(LAPACK_COL_MAJOR, 'I', order, matrix, order, norm, &reciprocal);
-            *condition = 1.0 / reciprocal;
+    size_t n = influence->density->n;
+#pragma omp parallel for num_threads(influence->threads) schedule(static)
+    for (size_t i = 0; i < n; i++) {
+        const double *along = rows + 3 * n * i + n, *across = along + n;
+        double axis[3][3], sum[2] = {0.0, 0.0};
+        frame(influence->density->normal + 3 * i, axis);
+        for (size_t k = 0; k < n; k++) {
+            sum[0] += along[k] * sigma[k];
+            sum[1] += across[k] * sigma[k];
         }
-        LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'T', order, 1, matrix, order, pivots, right, order);
-        for (size_t i = 0; i < n && status == IGABEM_OK; i++)
-            if (!isfinite(right[i]))
-                status = igabem_fail(IGABEM_ERROR_NUMERIC, "unknown %zu is not finite", i);
+        for (size_t c = 0; c < 3; c++)
+            velocity[c * n + i] =
+                normal_velocity[i] * axis[0][c] + sum[0] * axis[1][c] + sum[1] * axis[2][c];
     }
-    free(pivots);
-    return status;
 }

@@ -111,6 +111,8 @@ igabem_status igabem_forces_compute(const igabem_solution *solution, igabem_forc
                               .sinkage = NAN,
                               .trim = NAN,
                               .condition = solution->condition,
+                              .iterations = solution->iterations,
+                              .residual = solution->residual,
                               .seconds = solution->seconds,
                               .memory = solution->memory,
                               .dofs = solution->density->n};

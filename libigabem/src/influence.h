@@ -51,21 +51,25 @@ void regular_scatter(const struct element *element, const struct regular_rule *r
 int element_contains(const struct density *density, const struct element *element, size_t point,
                      double local[2]);
 
-/* Fills rankine and image (NULL: not wanted). progress as in the options. */
-igabem_status influence_rankine(const struct influence *influence, double *rankine, double *image);
+/* Fills rankine and image; without image (NULL), adds image_weight[i] times its row i to rankine
+ * (both NULL: not wanted). */
+igabem_status influence_rankine(const struct influence *influence, double *rankine, double *image,
+                                const double *image_weight);
 
-/* Adds the local part of surface sources to local, for the collocation points with row[i] != 0
- * (NULL: all). */
-igabem_status influence_local(const struct influence *influence, double k0, const char *row,
-                              double *local);
+/* Adds weight[i] (NULL: 1) times row i of the local part of surface sources; rows with weight 0
+ * cost nothing. */
+igabem_status influence_local(const struct influence *influence, double k0, const double *weight,
+                              double *rows);
 
 /* Adds the local part of the waterline sources. */
 igabem_status influence_local_line(const struct influence *influence, const struct line *line,
-                                   double k0, const char *row, double *local);
+                                   double k0, const double *weight, double *rows);
 
-/* Adds the wave part of surface sources and, unless line is NULL, of waterline sources, with
- * `filters` cut-off angles (INFINITY: none): wave[f][n][3][n]. */
+/* Adds the wave part of surface sources and, unless line is NULL, of waterline sources, with the
+ * filter of cutoff[0] (INFINITY: none). What each further filter changes in the component along
+ * the normal of the point is added to change[filters - 1][n][n]. */
 igabem_status influence_wave(const struct influence *influence, const struct line *line, double k0,
-                             size_t filters, const double *cutoff, const char *row, double *wave);
+                             size_t filters, const double *cutoff, const double *weight,
+                             double *rows, double *change);
 
 #endif

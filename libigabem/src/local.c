@@ -127,12 +127,12 @@ static igabem_status evaluate(double k0, const double image[2][3], int images,
     return igabem_kelvin_local(n, X, Y, Z, NULL, v, v + n, v + 2 * n);
 }
 
-/* Turns the derivatives into velocities; the second half of the far nodes and of the near ones
- * belong to the image in y. */
-static void scatter(const struct influence *influence, double k0, int images,
+/* Turns the derivatives into velocities by a factor; the second half of the far nodes and of the
+ * near ones belong to the image in y. */
+static void scatter(const struct influence *influence, double factor, int images,
                     struct local_work *work, size_t n, double *rows)
 {
-    double *v = work->batch + 3 * n, factor = k0 * k0 / (4.0 * PI);
+    double *v = work->batch + 3 * n;
     size_t far = work->far_nodes, stride = influence->density->n;
     for (size_t i = 0; i < 3 * n; i++)
         v[i] *= factor;
@@ -156,7 +156,7 @@ static void scatter(const struct influence *influence, double k0, int images,
 /* Both images of the point see the line at the same distance when it lies in the centre plane and
  * at different ones elsewhere, so each has its own nodes. */
 static igabem_status line_rows(const struct influence *influence, const struct line *line,
-                               double k0, const double image[2][3], int images,
+                               double k0, double factor, const double image[2][3], int images,
                                struct local_work *work, double *rows)
 {
     struct near_rule rule = {
@@ -178,11 +178,11 @@ static igabem_status line_rows(const struct influence *influence, const struct l
     size_t total;
     igabem_status status = evaluate(k0, image, images, work, &total);
     if (status == IGABEM_OK)
-        scatter(influence, k0, images, work, total, rows);
+        scatter(influence, factor, images, work, total, rows);
     return status;
 }
 
-static igabem_status surface_rows(const struct influence *influence, double k0,
+static igabem_status surface_rows(const struct influence *influence, double k0, double factor,
                                   const double image[2][3], int images, struct local_work *work,
                                   double *rows)
 {
@@ -190,13 +190,13 @@ static igabem_status surface_rows(const struct influence *influence, double k0,
     collect(influence, k0, image, images, work);
     igabem_status status = evaluate(k0, image, images, work, &total);
     if (status == IGABEM_OK)
-        scatter(influence, k0, images, work, total, rows);
+        scatter(influence, factor, images, work, total, rows);
     return status;
 }
 
 /* The rows of surface sources (line NULL) or of the waterline. */
 static igabem_status all_rows(const struct influence *influence, const struct line *line, double k0,
-                              const char *row, double *local)
+                              const double *weight, double *rows)
 {
     const struct density *density = influence->density;
     size_t n = density->n;
@@ -212,14 +212,15 @@ static igabem_status all_rows(const struct influence *influence, const struct li
             work.far ? IGABEM_OK : igabem_fail(IGABEM_ERROR_MEMORY, "no memory for a matrix row");
 #pragma omp for schedule(dynamic, 4)
         for (size_t i = 0; i < n; i++) {
-            if (status != IGABEM_OK || (row && !row[i]))
+            if (status != IGABEM_OK || (weight && weight[i] == 0.0))
                 continue;
             const double *p = density->point + 3 * i;
             double image[2][3] = {{p[0], p[1], -p[2]}, {p[0], -p[1], -p[2]}};
             const double(*const_image)[3] = (const double(*)[3])image;
-            double *rows = local + 3 * n * i;
-            status = line ? line_rows(influence, line, k0, const_image, images, &work, rows)
-                          : surface_rows(influence, k0, const_image, images, &work, rows);
+            double *to = rows + 3 * n * i,
+                   factor = (weight ? weight[i] : 1.0) * k0 * k0 / (4.0 * PI);
+            status = line ? line_rows(influence, line, k0, factor, const_image, images, &work, to)
+                          : surface_rows(influence, k0, factor, const_image, images, &work, to);
         }
 #pragma omp critical
         if (status != IGABEM_OK)
@@ -233,14 +234,14 @@ static igabem_status all_rows(const struct influence *influence, const struct li
                                : igabem_fail(result, "the local part of the Green function failed");
 }
 
-igabem_status influence_local(const struct influence *influence, double k0, const char *row,
-                              double *local)
+igabem_status influence_local(const struct influence *influence, double k0, const double *weight,
+                              double *rows)
 {
-    return all_rows(influence, NULL, k0, row, local);
+    return all_rows(influence, NULL, k0, weight, rows);
 }
 
 igabem_status influence_local_line(const struct influence *influence, const struct line *line,
-                                   double k0, const char *row, double *local)
+                                   double k0, const double *weight, double *rows)
 {
-    return all_rows(influence, line, k0, row, local);
+    return all_rows(influence, line, k0, weight, rows);
 }

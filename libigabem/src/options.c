@@ -76,6 +76,8 @@ static igabem_status check(const igabem_options *options)
     igabem_status status = IGABEM_OK;
     if (options->kernel < IGABEM_KERNEL_KELVIN || options->kernel > IGABEM_KERNEL_RANKINE)
         status = igabem_fail(IGABEM_ERROR_ARGUMENT, "unknown kernel %d", (int)options->kernel);
+    else if (options->solver < IGABEM_SOLVER_AUTO || options->solver > IGABEM_SOLVER_GMRES)
+        status = igabem_fail(IGABEM_ERROR_ARGUMENT, "unknown solver %d", (int)options->solver);
     else if (!igabem_formulation_name(options->formulation))
         status =
             igabem_fail(IGABEM_ERROR_ARGUMENT, "unknown formulation %d", (int)options->formulation);

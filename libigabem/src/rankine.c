@@ -201,7 +201,8 @@ static igabem_status point_rows(const struct influence *influence, size_t point,
     return status;
 }
 
-igabem_status influence_rankine(const struct influence *influence, double *rankine, double *image)
+igabem_status influence_rankine(const struct influence *influence, double *rankine, double *image,
+                                const double *image_weight)
 {
     size_t n = influence->density->n;
     igabem_status result = IGABEM_OK;
@@ -210,19 +211,24 @@ igabem_status influence_rankine(const struct influence *influence, double *ranki
         struct rankine_work work = {0};
         nodes_init(&work.nodes, influence->mesh);
         struct far_view *views = malloc(influence->mesh->panels * sizeof *views);
-        igabem_status status =
-            views ? IGABEM_OK : igabem_fail(IGABEM_ERROR_MEMORY, "no memory for a matrix row");
+        double *buffer = malloc(3 * n * sizeof *buffer);
+        igabem_status status = views && buffer
+                                   ? IGABEM_OK
+                                   : igabem_fail(IGABEM_ERROR_MEMORY, "no memory for a matrix row");
 #pragma omp for schedule(dynamic, 4)
         for (size_t i = 0; i < n; i++) {
             if (status != IGABEM_OK)
                 continue;
             double *direct = rankine ? rankine + 3 * n * i : NULL;
-            double *mirrored = image ? image + 3 * n * i : NULL;
+            double weight = image || !image_weight ? 0.0 : image_weight[i];
+            double *mirrored = image ? image + 3 * n * i : weight != 0.0 ? buffer : NULL;
             if (direct)
                 memset(direct, 0, 3 * n * sizeof *direct);
             if (mirrored)
                 memset(mirrored, 0, 3 * n * sizeof *mirrored);
             status = point_rows(influence, i, &work, views, direct, mirrored);
+            for (size_t k = 0; k < 3 * n && direct && mirrored == buffer; k++)
+                direct[k] += weight * buffer[k];
         }
 #pragma omp critical
         if (status != IGABEM_OK)
@@ -230,6 +236,7 @@ igabem_status influence_rankine(const struct influence *influence, double *ranki
         nodes_free(&work.nodes);
         free(work.k);
         free(views);
+        free(buffer);
     }
     return result == IGABEM_OK ? result
                                : igabem_fail(result, "no memory for the Rankine integrals");

@@ -16,6 +16,8 @@ struct igabem_solution {
     double *sigma_lower; /* [n] with 0.85 of the cut-off, NULL: not asked for */
     double *sigma_upper; /* [n] with 1.15 */
     double condition;    /* 1-norm estimate, NAN without a solve */
+    size_t iterations;   /* of GMRES with the cut-off itself, 0 with LU */
+    double residual;     /* relative, the largest of its solves; NAN with LU */
     double seconds;
     double memory; /* bytes of influences and matrix */
 };

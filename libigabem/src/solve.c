@@ -1,5 +1,6 @@
 #include "assemble.h"
 #include "error.h"
+#include "linear.h"
 #include "solution.h"
 
 #include <math.h>
@@ -8,6 +9,8 @@
 #include <string.h>
 
 static const double sensitivity_factors[3] = {1.0, 0.85, 1.15};
+/* With fewer unknowns LU takes less than 3 % of a solve. */
+static const size_t direct_unknowns = 1000;
 
 double solution_stem_limiter(const igabem_options *options, double nu_x)
 {
@@ -106,7 +109,7 @@ static igabem_status start_solution(const igabem_hull *hull, const igabem_option
     solution->x_fore = hull->hydrostatics.x_fore;
     solution->waves = options->kernel == IGABEM_KERNEL_KELVIN;
     solution->speed = 1.0;
-    solution->condition = NAN;
+    solution->condition = solution->residual = NAN;
     if (solution->waves) {
         solution->speed = options->froude * sqrt(options->gravity * hull->length);
         solution->k0 = options->gravity / (solution->speed * solution->speed);
@@ -131,14 +134,36 @@ static void normal_flow(const igabem_solution *solution, double *values)
         values[i] = solution->speed * solution->density->normal[3 * i];
 }
 
-/* Adds waterline and waves of one setting to wave[0][n][3][n]; the filters beyond the first start
- * from the waterline alone. */
+/* Parts of the Green function that several settings share, [n][3][n]; all NULL for one setting,
+ * whose weights are applied as the parts are integrated. */
+struct parts {
+    double *rankine, *image, *local;
+    double local_k0; /* that local is for; 0: none */
+};
+
+/* How a setting weighs the parts, row by row:
+ *     velocity_i = rankine + image[i] image + wave[i] (local + wave). */
+struct weights {
+    double *image, *wave; /* [n] */
+};
+
+static void add_weighted(const struct influence *influence, const double *weight,
+                         const double *from, double *to)
+{
+    size_t n = influence->density->n;
+#pragma omp parallel for num_threads(influence->threads) schedule(static)
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 3 * n * i; k < 3 * n * (i + 1) && weight[i] != 0.0; k++)
+            to[k] += weight[i] * from[k];
+}
+
+/* Adds waterline and waves of one setting to rows, and to change[filters - 1][n][n] what the
+ * filters beyond the first change in the matrix. */
 static igabem_status wave_influence(const struct influence *influence,
-                                    const igabem_solution *solution, const char *row,
-                                    size_t filters, double *wave)
+                                    const igabem_solution *solution, const double *weight,
+                                    size_t filters, double *rows, double *change)
 {
     const igabem_options *options = &solution->options;
-    size_t n = influence->density->n, size = 3 * n * n;
     double cutoff[3];
     for (size_t f = 0; f < filters; f++)
         cutoff[f] = sensitivity_factors[f] * options->cutoff_angle;
@@ -147,58 +172,148 @@ static igabem_status wave_influence(const struct influence *influence,
     if (options->line_term)
         status = line_create(influence->density, influence->mesh, options->stem_limit, &line);
     if (status == IGABEM_OK && line)
-        status = influence_local_line(influence, line, solution->k0, row, wave);
-    for (size_t f = 1; f < filters && status == IGABEM_OK; f++)
-        memcpy(wave + f * size, wave, size * sizeof *wave);
+        status = influence_local_line(influence, line, solution->k0, weight, rows);
     if (status == IGABEM_OK)
-        status = influence_wave(influence, line, solution->k0, filters, cutoff, row, wave);
+        status =
+            influence_wave(influence, line, solution->k0, filters, cutoff, weight, rows, change);
     line_free(line);
     return status;
 }
 
-static igabem_status solve_density(const struct system *system, const igabem_solution *solution,
-                                   double *sigma, double *condition)
+/* Fills rows with the velocities of a setting; fraction is done after the Rankine part. */
+static igabem_status weighted_rows(struct shared *shared, double fraction,
+                                   const struct influence *influence,
+                                   const igabem_solution *solution, const struct parts *parts,
+                                   const struct weights *weights, size_t filters, double *rows,
+                                   double *change)
 {
-    size_t n = solution->density->n;
-    double *matrix = malloc(n * n * sizeof *matrix);
-    if (!matrix)
-        return no_memory(n);
-    igabem_status status = system_matrix(system, matrix);
-    if (status == IGABEM_OK) {
-        normal_flow(solution, sigma);
-        status = system_solve(n, matrix, sigma, condition);
+    size_t n = influence->density->n;
+    const double *image = needs_image(&solution->options) ? weights->image : NULL;
+    igabem_status status = IGABEM_OK;
+    if (parts->rankine) {
+        memcpy(rows, parts->rankine, 3 * n * n * sizeof *rows);
+        if (image)
+            add_weighted(influence, image, parts->image, rows);
+    } else {
+        status = influence_rankine(influence, rows, NULL, image);
     }
-    free(matrix);
-    return status;
-}
-
-static igabem_status solve_filters(struct system *system, igabem_solution *solution, size_t filters,
-                                   const double *wave)
-{
-    size_t n = solution->density->n;
-    double **extra[2] = {&solution->sigma_lower, &solution->sigma_upper};
-    igabem_status status = solve_density(system, solution, solution->sigma, &solution->condition);
-    if (status != IGABEM_OK)
-        return status;
-    solution->velocity = malloc(3 * n * sizeof *solution->velocity);
-    if (!solution->velocity)
-        return no_memory(n);
-    status = system_velocity(system, solution->sigma, solution->velocity);
     if (status == IGABEM_OK)
-        status = density_interpolate(solution->density, 3, solution->velocity);
-    for (size_t f = 1; f < filters && status == IGABEM_OK; f++) {
-        system->wave = wave + f * 3 * n * n;
-        *extra[f - 1] = malloc(n * sizeof(double));
-        status =
-            *extra[f - 1] ? solve_density(system, solution, *extra[f - 1], NULL) : no_memory(n);
+        status = report(shared, fraction);
+    if (status != IGABEM_OK || !needs_waves(&solution->options))
+        return status;
+    if (parts->local)
+        add_weighted(influence, weights->wave, parts->local, rows);
+    else
+        status = influence_local(influence, solution->k0, weights->wave, rows);
+    if (status == IGABEM_OK)
+        status = wave_influence(influence, solution, weights->wave, filters, rows, change);
+    return status;
+}
+
+/* The densities of all filters by LU, which replaces the matrices by their factors. */
+static igabem_status solve_directly(const struct matrix *matrix, igabem_solution *solution,
+                                    size_t filters, double *change, double *const *sigma)
+{
+    size_t n = matrix->n;
+    igabem_status status = IGABEM_OK;
+    for (size_t f = filters; f-- > 0 && status == IGABEM_OK;) {
+        struct matrix system = *matrix;
+        if (f > 0) {
+            system = (struct matrix){n, n, change + (f - 1) * n * n, matrix->threads};
+            for (size_t i = 0; i < n; i++)
+                for (size_t k = 0; k < n; k++)
+                    system.rows[i * n + k] += matrix->rows[i * matrix->stride + k];
+        }
+        normal_flow(solution, sigma[f]);
+        status = linear_lu(&system, sigma[f], f == 0 ? &solution->condition : NULL);
+    }
+    solution->options.solver = IGABEM_SOLVER_LU;
+    return status;
+}
+
+/* The same by GMRES, which leaves the matrices as they are; a filter starts from the density of the
+ * first. */
+static igabem_status solve_iteratively(const struct matrix *matrix, igabem_solution *solution,
+                                       size_t filters, const double *change, double *const *sigma)
+{
+    size_t n = matrix->n;
+    struct iteration *iteration = NULL;
+    double *right = malloc(n * sizeof *right);
+    igabem_status status = right ? IGABEM_OK : no_memory(n);
+    if (status == IGABEM_OK)
+        status = iteration_create(matrix, solution->density->point, &iteration);
+    if (status == IGABEM_OK) {
+        normal_flow(solution, right);
+        memset(sigma[0], 0, n * sizeof *right);
+    }
+    for (size_t f = 0; f < filters && status == IGABEM_OK; f++) {
+        struct gmres_result result;
+        if (f > 0)
+            memcpy(sigma[f], sigma[0], n * sizeof *right);
+        status = iteration_solve(iteration, f > 0 ? change + (f - 1) * n * n : NULL, right,
+                                 sigma[f], &result);
+        solution->iterations = f == 0 ? result.iterations : solution->iterations;
+        solution->residual = f == 0 ? result.residual : fmax(solution->residual, result.residual);
+    }
+    if (status == IGABEM_OK)
+        status = iteration_condition(iteration, &solution->condition);
+    if (iteration)
+        solution->memory += iteration_memory(iteration);
+    iteration_free(iteration);
+    free(right);
+    solution->options.solver = IGABEM_SOLVER_GMRES;
+    return status;
+}
+
+/* By the solver asked for; automatic choice turns to LU where GMRES fails. */
+static igabem_status solve_filters(const struct matrix *matrix, igabem_solution *solution,
+                                   size_t filters, double *change)
+{
+    size_t n = matrix->n;
+    igabem_solver wanted = solution->options.solver;
+    double **extra[2] = {&solution->sigma_lower, &solution->sigma_upper};
+    double *sigma[3] = {solution->sigma, NULL, NULL};
+    for (size_t f = 1; f < filters; f++) {
+        sigma[f] = *extra[f - 1] = malloc(n * sizeof(double));
+        if (!sigma[f])
+            return no_memory(n);
+    }
+    igabem_status status = IGABEM_ERROR_NUMERIC;
+    int iterate =
+        wanted == IGABEM_SOLVER_GMRES || (wanted == IGABEM_SOLVER_AUTO && n >= direct_unknowns);
+    if (iterate)
+        status = solve_iteratively(matrix, solution, filters, change, sigma);
+    if (!iterate || (status == IGABEM_ERROR_NUMERIC && wanted == IGABEM_SOLVER_AUTO)) {
+        solution->iterations = 0;
+        solution->residual = NAN;
+        status = solve_directly(matrix, solution, filters, change, sigma);
     }
     return status;
 }
 
-/* keep_local: another setting reads local after this one; else waterline and waves are added to it
- * in place. */
-static igabem_status finish_solution(const struct influence *influence, const double *rankine,
-                                     const double *image, double *local, int keep_local,
+static igabem_status solve_rows(const struct influence *influence, igabem_solution *solution,
+                                size_t filters, double *rows, double *change)
+{
+    size_t n = influence->density->n;
+    const struct matrix matrix = {n, 3 * n, rows, influence->threads};
+    solution->velocity = malloc(3 * n * sizeof *solution->velocity);
+    double *flow = malloc(n * sizeof *flow);
+    igabem_status status = solution->velocity && flow ? IGABEM_OK : no_memory(n);
+    if (status == IGABEM_OK) {
+        assemble_turn(influence, rows);
+        status = solve_filters(&matrix, solution, filters, change);
+    }
+    if (status == IGABEM_OK) {
+        normal_flow(solution, flow);
+        assemble_velocity(influence, rows, flow, solution->sigma, solution->velocity);
+        status = density_interpolate(solution->density, 3, solution->velocity);
+    }
+    free(flow);
+    return status;
+}
+
+static igabem_status finish_solution(struct shared *shared, double fraction,
+                                     const struct influence *influence, const struct parts *parts,
                                      igabem_solution *solution)
 {
     const struct density *density = influence->density;
@@ -208,41 +323,33 @@ static igabem_status finish_solution(const struct influence *influence, const do
         normal_flow(solution, solution->sigma);
         return density_interpolate(solution->density, 1, solution->sigma);
     }
-    int waves = needs_waves(options);
-    size_t filters = waves ? (options->sensitivity && isfinite(options->cutoff_angle) ? 3 : 1) : 0;
-    double *weights = malloc(2 * n * sizeof *weights);
-    char *row = malloc(n);
-    int in_place = waves && filters == 1 && !keep_local;
-    double *own = waves && !in_place ? calloc(filters * 3 * n * n, sizeof *own) : NULL;
-    double *wave = in_place ? local : own;
+    int several = needs_waves(options) && options->sensitivity && isfinite(options->cutoff_angle);
+    size_t filters = several ? 3 : 1;
+    size_t arrays = 2 + filters; /* n^2 doubles each */
+    arrays += 3 * ((size_t) !!parts->rankine + (size_t) !!parts->image + (size_t) !!parts->local);
+    solution->memory = (double)(arrays * n * n * sizeof(double));
+    double *rows = calloc(3 * n * n, sizeof *rows);
+    double *change = several ? calloc((filters - 1) * n * n, sizeof *change) : NULL;
+    double *weight = malloc(2 * n * sizeof *weight);
+    const struct weights weights = {weight, weight + n};
     igabem_status status = IGABEM_OK;
-    size_t arrays = 1u + (image != NULL) + (local != NULL) + (own ? filters : 0);
-    solution->memory = (double)((3 * arrays + 1) * n * n * sizeof(double));
-    if (!weights || !row || (waves && !wave)) {
+    if (!rows || !weight || (several && !change)) {
         status = no_memory(n);
         goto done;
     }
-    struct system system = {.influence = influence,
-                            .rankine = rankine,
-                            .image = image,
-                            .local = in_place ? NULL : local,
-                            .wave = wave,
-                            .image_weight = weights,
-                            .wave_weight = weights + n};
     for (size_t i = 0; i < n; i++) {
         double share = wave_share(solution, density->point[3 * i]);
-        row[i] = share > 0;
-        system.wave_weight[i] = share;
-        system.image_weight[i] = options->kernel == IGABEM_KERNEL_RANKINE ? 0.0 : 2.0 * share - 1.0;
+        weights.wave[i] = share;
+        weights.image[i] = 2.0 * share - 1.0;
     }
-    if (waves)
-        status = wave_influence(influence, solution, row, filters, wave);
+    status = weighted_rows(shared, fraction, influence, solution, parts, &weights, filters, rows,
+                           change);
     if (status == IGABEM_OK)
-        status = solve_filters(&system, solution, filters, wave);
+        status = solve_rows(influence, solution, filters, rows, change);
 done:
-    free(weights);
-    free(row);
-    free(own);
+    free(weight);
+    free(rows);
+    free(change);
     return status;
 }
 
@@ -252,31 +359,55 @@ static igabem_status shared_local(const struct influence *influence, igabem_solu
 {
     const struct density *density = influence->density;
     double k0 = solutions[member[first]]->k0;
-    char *row = calloc(density->n, 1);
-    if (!row)
+    double *wanted = calloc(density->n, sizeof *wanted);
+    if (!wanted)
         return no_memory(density->n);
     for (size_t m = first; m < count; m++) {
         const igabem_solution *solution = solutions[member[m]];
         if (!needs_waves(&solution->options) || solution->k0 != k0)
             continue;
         for (size_t i = 0; i < density->n; i++)
-            row[i] = (char)(row[i] | (wave_share(solution, density->point[3 * i]) > 0));
+            if (wave_share(solution, density->point[3 * i]) > 0)
+                wanted[i] = 1.0;
     }
     memset(local, 0, 3 * density->n * density->n * sizeof *local);
-    igabem_status status = influence_local(influence, k0, row, local);
-    free(row);
+    igabem_status status = influence_local(influence, k0, wanted, local);
+    free(wanted);
     return status;
 }
 
-/* Whether a setting after number m has the same k0 and reads N. */
-static int local_used_later(igabem_solution **solutions, const size_t *member, size_t count,
-                            size_t m)
+/* Whether two of the settings have the same k0 and read N. */
+static int local_shared(igabem_solution **solutions, const size_t *member, size_t count)
 {
-    for (size_t k = m + 1; k < count; k++)
-        if (needs_waves(&solutions[member[k]]->options) &&
-            solutions[member[k]]->k0 == solutions[member[m]]->k0)
-            return 1;
+    for (size_t m = 0; m < count; m++)
+        for (size_t k = m + 1; k < count; k++)
+            if (needs_waves(&solutions[member[m]]->options) &&
+                needs_waves(&solutions[member[k]]->options) &&
+                solutions[member[k]]->k0 == solutions[member[m]]->k0)
+                return 1;
     return 0;
+}
+
+/* What more than one of the settings needs. */
+static igabem_status share_parts(const struct influence *influence, igabem_solution **solutions,
+                                 const size_t *member, size_t count, struct parts *parts)
+{
+    size_t n = influence->density->n, size = 3 * n * n * sizeof(double), solved = 0;
+    int images = 0;
+    for (size_t m = 0; m < count; m++) {
+        solved += (size_t)solves(&solutions[member[m]]->options);
+        images |= needs_image(&solutions[member[m]]->options);
+    }
+    *parts = (struct parts){NULL, NULL, NULL, 0.0};
+    if (solved < 2)
+        return IGABEM_OK;
+    int local = local_shared(solutions, member, count);
+    parts->rankine = malloc(size);
+    parts->image = images ? malloc(size) : NULL;
+    parts->local = local ? malloc(size) : NULL;
+    if (!parts->rankine || (images && !parts->image) || (local && !parts->local))
+        return no_memory(n);
+    return influence_rankine(influence, parts->rankine, parts->image, NULL);
 }
 
 /* Settings that share unknowns and quadrature: indices member[count]. */
@@ -285,53 +416,39 @@ static igabem_status solve_group(struct shared *shared, const size_t *member, si
     igabem_solution **solutions = shared->solutions;
     double start = omp_get_wtime(), per_setting = 1.0 / (double)shared->n;
     const igabem_solution *first = solutions[member[0]];
-    size_t n = first->density->n;
-    int any = 0, images = 0, waves = 0;
-    for (size_t m = 0; m < count; m++) {
-        any |= solves(&solutions[member[m]]->options);
-        images |= needs_image(&solutions[member[m]]->options);
-        waves |= needs_waves(&solutions[member[m]]->options);
-    }
     struct mesh *mesh = NULL;
     struct influence *influence = NULL;
-    double *rankine = NULL, *image = NULL, *local = NULL, local_k0 = 0.0;
+    struct parts parts = {NULL, NULL, NULL, 0.0};
     int threads = first->options.threads > 0 ? first->options.threads : omp_get_max_threads();
     igabem_status status = mesh_create(first->density, &mesh);
     if (status == IGABEM_OK)
         status =
             influence_create(first->density, mesh, first->options.tolerance, threads, &influence);
-    if (status == IGABEM_OK && any) {
-        size_t size = 3 * n * n * sizeof(double);
-        rankine = malloc(size);
-        image = images ? malloc(size) : NULL;
-        local = waves ? malloc(size) : NULL;
-        if (!rankine || (images && !image) || (waves && !local))
-            status = no_memory(n);
-        if (status == IGABEM_OK)
-            status = influence_rankine(influence, rankine, image);
-    }
     if (status == IGABEM_OK)
-        status = report(shared, shared->done + 0.5 * per_setting * (double)count);
-    double common = (omp_get_wtime() - start) / (double)count;
+        status = share_parts(influence, solutions, member, count, &parts);
+    double common = (omp_get_wtime() - start) / (double)count, done = shared->done;
+    double share = parts.rankine ? 0.5 * per_setting : per_setting;
+    if (parts.rankine)
+        done += share * (double)count;
+    if (status == IGABEM_OK)
+        status = report(shared, done);
     for (size_t m = 0; m < count && status == IGABEM_OK; m++) {
         igabem_solution *solution = solutions[member[m]];
         start = omp_get_wtime();
-        if (needs_waves(&solution->options) && solution->k0 != local_k0) {
-            status = shared_local(influence, solutions, member, count, m, local);
-            local_k0 = solution->k0;
+        if (parts.local && needs_waves(&solution->options) && solution->k0 != parts.local_k0) {
+            status = shared_local(influence, solutions, member, count, m, parts.local);
+            parts.local_k0 = solution->k0;
         }
-        int keep = local_used_later(solutions, member, count, m);
         if (status == IGABEM_OK)
-            status = finish_solution(influence, rankine, image, local, keep, solution);
-        if (!keep)
-            local_k0 = 0.0;
+            status = finish_solution(shared, done + 0.5 * share, influence, &parts, solution);
         solution->seconds = common + omp_get_wtime() - start;
+        done += share;
         if (status == IGABEM_OK)
-            status = report(shared, shared->done + 0.5 * per_setting);
+            status = report(shared, done);
     }
-    free(rankine);
-    free(image);
-    free(local);
+    free(parts.rankine);
+    free(parts.image);
+    free(parts.local);
     influence_free(influence);
     mesh_free(mesh);
     return status;

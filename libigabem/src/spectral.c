@@ -35,7 +35,8 @@ struct wave {
     struct wave_rule rule;
     size_t filters;
     const double *cutoff;
-    double *filter;        /* [filters][angles] */
+    double *filter;        /* [filters][angles]; after the first, differences from it */
+    const double *weight;  /* of the rows, NULL: 1 */
     struct source *source; /* by decreasing box[0] */
     size_t sources;
     size_t *point; /* wanted rows, by decreasing x */
@@ -170,78 +171,112 @@ static igabem_status source_moments(const struct wave *wave, struct source *sour
     return IGABEM_OK;
 }
 
-/* Factors of a point: for every filter, component and set the multipliers of re and im, so that the
- * velocity is the sum over angles of factor times moment. The order is [filter][component][width].
- */
-static size_t point_factors(const struct wave *wave, const double p[3], double *factor)
+/* Rows of factors of a point: three components with the first filter, and what each further filter
+ * changes along the normal. */
+static size_t factor_rows(const struct wave *wave)
+{
+    return wave->filters + 2;
+}
+
+/* Factors of a point: for every row (see above) and set the multipliers of re and im, so that the
+ * velocity is the sum over angles of factor times moment. The order is [row][width]. */
+static size_t point_factors(const struct wave *wave, size_t point, double *factor)
 {
     const struct spectrum *spectrum = wave->spectrum;
+    const double *p = wave->influence->density->point + 3 * point;
+    const double *normal = wave->influence->density->normal + 3 * point;
     size_t n = spectrum->n, width = wave->width, angles = angles_at(wave, wave->depth - p[2]);
     double k0 = wave->k0, scale = k0 * k0 / (4.0 * PI) * (wave->sets == 1 ? 16.0 : 8.0);
+    scale *= wave->weight ? wave->weight[point] : 1.0;
     for (size_t j = 0; j < angles; j++) {
         double t = spectrum->t[j], s = spectrum->root[j], sine, cosine, sine_y, cosine_y;
         wave_sincos(k0 * (p[0] - wave->x0) * s, &sine, &cosine);
         wave_sincos(k0 * p[1] * t * s, &sine_y, &cosine_y);
         double base = scale * spectrum->weight[j] * wave_exp(fmax(k0 * p[2] * s * s, -600.0));
-        for (size_t f = 0; f < wave->filters; f++) {
-            double amplitude = base * wave->filter[f * n + j];
-            double u = amplitude * s, v = -amplitude * t * s, w = amplitude * s * s;
-            double *row = factor + 3 * f * width + j;
-            for (size_t set = 0; set < wave->sets; set++, row += 2 * n) {
-                double even = set == 0 ? cosine_y : sine_y, odd = set == 0 ? sine_y : -cosine_y;
-                row[0] = u * even * cosine;
-                row[n] = -u * even * sine;
-                row[width] = v * odd * sine;
-                row[width + n] = v * odd * cosine;
-                row[2 * width] = w * even * sine;
-                row[2 * width + n] = w * even * cosine;
+        double u = base * s, v = -base * t * s, w = base * s * s;
+        double *row = factor + j;
+        for (size_t set = 0; set < wave->sets; set++, row += 2 * n) {
+            double even = set == 0 ? cosine_y : sine_y, odd = set == 0 ? sine_y : -cosine_y;
+            double re[3] = {u * even * cosine, v * odd * sine, w * even * sine};
+            double im[3] = {-u * even * sine, v * odd * cosine, w * even * cosine};
+            for (size_t c = 0; c < 3; c++) {
+                row[c * width] = wave->filter[j] * re[c];
+                row[c * width + n] = wave->filter[j] * im[c];
+            }
+            double along_re = normal[0] * re[0] + normal[1] * re[1] + normal[2] * re[2];
+            double along_im = normal[0] * im[0] + normal[1] * im[1] + normal[2] * im[2];
+            for (size_t f = 1; f < wave->filters; f++) {
+                row[(2 + f) * width] = wave->filter[f * n + j] * along_re;
+                row[(2 + f) * width + n] = wave->filter[f * n + j] * along_im;
             }
         }
     }
     return angles;
 }
 
-/* Rows from the state: rows[filter * filter_stride + component * unknowns + k] += factor . state_k.
- */
+/* Where the rows of a point go: three components, and the change by each further filter. */
+struct target {
+    double *rows, *change;
+    size_t change_stride;
+};
+
+/* Adds factor . state_k to the rows of unknown k. */
 WAVE_MULTIVERSION
 static void product(const struct wave *wave, const double *factor, size_t angles,
-                    const double *state, size_t first, size_t last, double *rows,
-                    size_t filter_stride)
+                    const double *state, size_t first, size_t last, const struct target *target)
 {
     size_t n = wave->spectrum->n, width = wave->width, stride = wave->influence->density->n;
-    for (size_t k = first; k < last; k++)
-        for (size_t f = 0; f < wave->filters; f++) {
-            const double *row = factor + 3 * f * width;
-            double u = 0.0, v = 0.0, w = 0.0;
-            for (size_t set = 0; set < 2 * wave->sets; set++) {
-                const double *from = state + k * width + set * n, *a = row + set * n;
-                double su[8] = {0}, sv[8] = {0}, sw[8] = {0};
-                size_t j = 0;
-                for (; j + 8 <= angles; j += 8)
-                    for (size_t l = 0; l < 8; l++) {
-                        su[l] += a[j + l] * from[j + l];
-                        sv[l] += a[width + j + l] * from[j + l];
-                        sw[l] += a[2 * width + j + l] * from[j + l];
-                    }
-                for (; j < angles; j++) {
-                    su[0] += a[j] * from[j];
-                    sv[0] += a[width + j] * from[j];
-                    sw[0] += a[2 * width + j] * from[j];
-                }
+    for (size_t k = first; k < last; k++) {
+        double u = 0.0, v = 0.0, w = 0.0;
+        for (size_t set = 0; set < 2 * wave->sets; set++) {
+            const double *from = state + k * width + set * n, *a = factor + set * n;
+            double su[8] = {0}, sv[8] = {0}, sw[8] = {0};
+            size_t j = 0;
+            for (; j + 8 <= angles; j += 8)
                 for (size_t l = 0; l < 8; l++) {
-                    u += su[l];
-                    v += sv[l];
-                    w += sw[l];
+                    su[l] += a[j + l] * from[j + l];
+                    sv[l] += a[width + j + l] * from[j + l];
+                    sw[l] += a[2 * width + j + l] * from[j + l];
                 }
+            for (; j < angles; j++) {
+                su[0] += a[j] * from[j];
+                sv[0] += a[width + j] * from[j];
+                sw[0] += a[2 * width + j] * from[j];
             }
-            double *out = rows + f * filter_stride + k;
-            out[0] += u;
-            out[stride] += v;
-            out[2 * stride] += w;
+            for (size_t l = 0; l < 8; l++) {
+                u += su[l];
+                v += sv[l];
+                w += sw[l];
+            }
+        }
+        target->rows[k] += u;
+        target->rows[stride + k] += v;
+        target->rows[2 * stride + k] += w;
+    }
+}
+
+/* The products of one further filter. */
+WAVE_MULTIVERSION
+static void product_of_change(const struct wave *wave, const double *factor, size_t angles,
+                              const double *state, size_t first, size_t last, double *change)
+{
+    size_t n = wave->spectrum->n, width = wave->width;
+    for (size_t k = first; k < last; k++)
+        for (size_t set = 0; set < 2 * wave->sets; set++) {
+            const double *from = state + k * width + set * n, *a = factor + set * n;
+            double sum[8] = {0};
+            size_t j = 0;
+            for (; j + 8 <= angles; j += 8)
+                for (size_t l = 0; l < 8; l++)
+                    sum[l] += a[j + l] * from[j + l];
+            for (; j < angles; j++)
+                sum[0] += a[j] * from[j];
+            for (size_t l = 0; l < 8; l++)
+                change[k] += sum[l];
         }
 }
 
-/* Velocities at the point due to nodes ahead of it: fills k[filter * 3 + component][node]. */
+/* Velocities at the point due to nodes ahead of it: fills k[row of factors][node]. */
 WAVE_MULTIVERSION
 static void direct_sum(const struct wave *wave, const double *factor, size_t point_angles,
                        double clearance, const struct nodes *nodes, double *buffer, double *k)
@@ -251,7 +286,7 @@ static void direct_sum(const struct wave *wave, const double *factor, size_t poi
         size_t angles = angles_at(wave, clearance - nodes->z[i]);
         angles = angles < point_angles ? angles : point_angles;
         node_waves(wave, angles, nodes->x[i], nodes->y[i], nodes->z[i], buffer);
-        for (size_t row = 0; row < 3 * wave->filters; row++) {
+        for (size_t row = 0; row < factor_rows(wave); row++) {
             double sum = 0.0;
             for (size_t set = 0; set < 2 * wave->sets; set++) {
                 const double *a = factor + row * width + set * n, *b = buffer + set * n;
@@ -271,8 +306,8 @@ static void direct_sum(const struct wave *wave, const double *factor, size_t poi
 }
 
 static igabem_status straddling(const struct wave *wave, size_t point, const double *factor,
-                                size_t angles, double slack, struct wave_work *work, double *rows,
-                                size_t filter_stride)
+                                size_t angles, double slack, struct wave_work *work,
+                                const struct target *target)
 {
     const struct density *density = wave->influence->density;
     const double *p = density->point + 3 * point;
@@ -287,12 +322,13 @@ static igabem_status straddling(const struct wave *wave, size_t point, const dou
     size_t n = work->nodes.n;
     if (n == 0 && !work->nodes.failed)
         return IGABEM_OK;
-    if (work->nodes.failed || !reserve(work, 3 * wave->filters * n))
+    if (work->nodes.failed || !reserve(work, factor_rows(wave) * n))
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for wave sums");
     direct_sum(wave, factor, angles, -p[2], &work->nodes, work->buffer, work->f);
-    for (size_t f = 0; f < wave->filters; f++)
-        nodes_scatter(&work->nodes, 3, work->f + 3 * f * n, n, rows + f * filter_stride,
-                      density->n);
+    nodes_scatter(&work->nodes, 3, work->f, n, target->rows, density->n);
+    if (wave->filters > 1)
+        nodes_scatter(&work->nodes, wave->filters - 1, work->f + 3 * n, n, target->change,
+                      target->change_stride);
     return IGABEM_OK;
 }
 
@@ -315,23 +351,27 @@ static void add_moments(const struct wave *wave, const struct source *source, do
 
 /* Rows of a block of consecutive points (in order of decreasing x). */
 static igabem_status block_rows(const struct wave *wave, size_t begin, size_t end,
-                                struct wave_work *work, double *state, double *factor, double *rows)
+                                struct wave_work *work, double *state, double *factor, double *rows,
+                                double *change)
 {
     const struct density *density = wave->influence->density;
-    size_t next = 0, range[2] = {density->n, 0}, filter_stride = 3 * density->n * density->n;
+    size_t next = 0, n = density->n, range[2] = {n, 0};
     double slack = 1e-9 * wave->extent;
-    memset(state, 0, density->n * wave->width * sizeof *state);
+    memset(state, 0, n * wave->width * sizeof *state);
     for (size_t i = begin; i < end; i++) {
         size_t point = wave->point[i];
         const double *p = density->point + 3 * point;
         while (next < wave->sources && wave->source[next].box[0] >= p[0] - slack)
             add_moments(wave, &wave->source[next++], state, range);
-        size_t angles = point_factors(wave, p, factor);
-        double *out = rows + 3 * density->n * point;
+        size_t angles = point_factors(wave, point, factor);
+        const struct target target = {rows + 3 * n * point, change ? change + n * point : NULL,
+                                      n * n};
         if (range[0] < range[1])
-            product(wave, factor, angles, state, range[0], range[1], out, filter_stride);
-        igabem_status status =
-            straddling(wave, point, factor, angles, slack, work, out, filter_stride);
+            product(wave, factor, angles, state, range[0], range[1], &target);
+        for (size_t f = 1; f < wave->filters && range[0] < range[1]; f++)
+            product_of_change(wave, factor + (2 + f) * wave->width, angles, state, range[0],
+                              range[1], target.change + (f - 1) * n * n);
+        igabem_status status = straddling(wave, point, factor, angles, slack, work, &target);
         if (status != IGABEM_OK)
             return status;
     }
@@ -356,7 +396,7 @@ static int points_by_decreasing_x(const void *a, const void *b)
     return d > 0 ? 1 : d < 0 ? -1 : (p->index > q->index) - (p->index < q->index);
 }
 
-static igabem_status sort_points(struct wave *wave, const char *row)
+static igabem_status sort_points(struct wave *wave)
 {
     const struct density *density = wave->influence->density;
     struct point_order *order = malloc(density->n * sizeof *order);
@@ -366,7 +406,7 @@ static igabem_status sort_points(struct wave *wave, const char *row)
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu rows", density->n);
     }
     for (size_t i = 0; i < density->n; i++)
-        if (!row || row[i])
+        if (!wave->weight || wave->weight[i] != 0.0)
             order[wave->points++] = (struct point_order){density->point[3 * i], i};
     qsort(order, wave->points, sizeof *order, points_by_decreasing_x);
     for (size_t i = 0; i < wave->points; i++)
@@ -446,11 +486,12 @@ static igabem_status make_spectrum(struct wave *wave)
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for the filter");
     for (size_t f = 0; f < wave->filters; f++)
         for (size_t j = 0; j < n; j++)
-            wave->filter[f * n + j] = spectrum_filter(wave->spectrum->t[j], wave->cutoff[f]);
+            wave->filter[f * n + j] = spectrum_filter(wave->spectrum->t[j], wave->cutoff[f]) -
+                                      (f > 0 ? wave->filter[j] : 0.0);
     return IGABEM_OK;
 }
 
-static igabem_status march(const struct wave *wave, int threads, double *rows)
+static igabem_status march(const struct wave *wave, int threads, double *rows, double *change)
 {
     const struct density *density = wave->influence->density;
     size_t blocks = 4 * (size_t)threads;
@@ -461,7 +502,7 @@ static igabem_status march(const struct wave *wave, int threads, double *rows)
         nodes_init(&work.nodes, wave->influence->mesh);
         work.buffer = malloc(wave->width * sizeof *work.buffer);
         double *state = malloc(density->n * wave->width * sizeof *state);
-        double *factor = malloc(3 * wave->filters * wave->width * sizeof *factor);
+        double *factor = malloc(factor_rows(wave) * wave->width * sizeof *factor);
         igabem_status status = IGABEM_OK;
         if (!work.buffer || !state || !factor)
             status = igabem_fail(IGABEM_ERROR_MEMORY, "no memory for wave sums");
@@ -472,8 +513,9 @@ static igabem_status march(const struct wave *wave, int threads, double *rows)
 #pragma omp for schedule(dynamic, 1)
         for (size_t b = 0; b < blocks; b++)
             if (status == IGABEM_OK)
-                status = block_rows(wave, wave->points * b / blocks,
-                                    wave->points * (b + 1) / blocks, &work, state, factor, rows);
+                status =
+                    block_rows(wave, wave->points * b / blocks, wave->points * (b + 1) / blocks,
+                               &work, state, factor, rows, change);
 #pragma omp critical
         if (status != IGABEM_OK)
             result = status;
@@ -487,22 +529,24 @@ static igabem_status march(const struct wave *wave, int threads, double *rows)
 }
 
 igabem_status influence_wave(const struct influence *influence, const struct line *line, double k0,
-                             size_t filters, const double *cutoff, const char *row, double *rows)
+                             size_t filters, const double *cutoff, const double *weight,
+                             double *rows, double *change)
 {
     struct wave wave = {.influence = influence,
                         .line = line && line->n ? line : NULL,
                         .sets = influence->density->symmetric ? 1 : 2,
                         .k0 = k0,
                         .filters = filters,
-                        .cutoff = cutoff};
+                        .cutoff = cutoff,
+                        .weight = weight};
     wave.rule.tolerance = influence->tolerance;
     igabem_status status = make_spectrum(&wave);
     if (status == IGABEM_OK)
         status = make_sources(&wave);
     if (status == IGABEM_OK)
-        status = sort_points(&wave, row);
+        status = sort_points(&wave);
     if (status == IGABEM_OK)
-        status = march(&wave, influence->threads, rows);
+        status = march(&wave, influence->threads, rows, change);
     spectrum_free(wave.spectrum);
     free(wave.filter);
     free(wave.source);

@@ -144,7 +144,7 @@ static void test_submerged(void)
     double *local = calloc(3 * n * n, sizeof *local), *wave = calloc(3 * n * n, sizeof *wave);
     CU_ASSERT_FATAL(local && wave);
     CU_ASSERT_EQUAL(influence_local(p.influence, k0, NULL, local), IGABEM_OK);
-    CU_ASSERT_EQUAL(influence_wave(p.influence, NULL, k0, 1, &cutoff, NULL, wave), IGABEM_OK);
+    CU_ASSERT_EQUAL(influence_wave(p.influence, NULL, k0, 1, &cutoff, NULL, wave, NULL), IGABEM_OK);
     const struct term terms[2] = {{0, k0, cutoff}, {1, k0, cutoff}};
     for (size_t i = 0; i < n; i += 5)
         for (int t = 0; t < 2; t++) {
@@ -172,7 +172,7 @@ static void test_waterline(void)
     struct line *line = NULL;
     CU_ASSERT_EQUAL_FATAL(line_create(p.density, p.mesh, 0.4, &line), IGABEM_OK);
     CU_ASSERT_EQUAL(influence_local_line(p.influence, line, k0, NULL, local), IGABEM_OK);
-    CU_ASSERT_EQUAL(influence_wave(p.influence, line, k0, 1, &cutoff, NULL, wave), IGABEM_OK);
+    CU_ASSERT_EQUAL(influence_wave(p.influence, line, k0, 1, &cutoff, NULL, wave, NULL), IGABEM_OK);
     const struct term terms[2] = {{0, k0, cutoff}, {1, k0, cutoff}};
     for (size_t i = 0; i < n; i += 3) {
         const double *x = p.density->point + 3 * i;
@@ -204,11 +204,12 @@ static void test_row_selection(void)
     open_problem(&p, ellipsoid_hull(1.0, 0.2, 0.2, 0.16, 1, 1), 2, 2, 1e-4);
     size_t n = p.density->n;
     double *rows = calloc(3 * n * n, sizeof *rows);
-    char *wanted = calloc(n, 1);
+    double *wanted = calloc(n, sizeof *wanted);
     CU_ASSERT_FATAL(rows && wanted);
-    wanted[3] = 1;
+    wanted[3] = 1.0;
     CU_ASSERT_EQUAL(influence_local(p.influence, k0, wanted, rows), IGABEM_OK);
-    CU_ASSERT_EQUAL(influence_wave(p.influence, NULL, k0, 1, &cutoff, wanted, rows), IGABEM_OK);
+    CU_ASSERT_EQUAL(influence_wave(p.influence, NULL, k0, 1, &cutoff, wanted, rows, NULL),
+                    IGABEM_OK);
     for (size_t i = 0; i < n; i++) {
         double sum = 0.0;
         for (size_t k = 0; k < 3 * n; k++)

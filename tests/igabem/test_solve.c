@@ -149,6 +149,62 @@ static void test_sensitivity(void)
     igabem_hull_free(hull);
 }
 
+/* Largest difference of two source densities on a grid, over the largest value. */
+static double density_gap(const igabem_solution *a, const igabem_solution *b)
+{
+    enum { SIDE = 9 };
+    double uv[2 * SIDE * SIDE], va[SIDE * SIDE], vb[SIDE * SIDE], gap = 0.0, scale = 0.0;
+    for (int k = 0; k < SIDE * SIDE; k++) {
+        uv[2 * k] = (0.5 + k / SIDE) / SIDE;
+        uv[2 * k + 1] = (0.5 + k % SIDE) / SIDE;
+    }
+    CU_ASSERT_EQUAL(igabem_source_density(a, 0, SIDE * SIDE, uv, va), IGABEM_OK);
+    CU_ASSERT_EQUAL(igabem_source_density(b, 0, SIDE * SIDE, uv, vb), IGABEM_OK);
+    for (int k = 0; k < SIDE * SIDE; k++) {
+        gap = fmax(gap, fabs(va[k] - vb[k]));
+        scale = fmax(scale, fabs(vb[k]));
+    }
+    return gap / scale;
+}
+
+/* GMRES gives what LU gives, with its condition estimate, on a Wigley hull with and without rows of
+ * the double body at the stern and on a submerged spheroid. */
+static void test_solvers(void)
+{
+    for (int k = 0; k < 3; k++) {
+        igabem_hull *hull =
+            k < 2 ? wigley_hull(0.1, 0.0625, 1, 1) : ellipsoid_hull(1.0, 0.2, 0.2, 0.16, 1, 1);
+        igabem_options options = k < 2 ? setting(12, 4) : setting(6, 6);
+        options.sensitivity = 1;
+        if (k == 1)
+            options.formulation = IGABEM_NEUMANN_KELVIN_STERN;
+        options.solver = IGABEM_SOLVER_LU;
+        igabem_solution *lu = solve(hull, &options);
+        options.solver = IGABEM_SOLVER_GMRES;
+        igabem_solution *gmres = solve(hull, &options);
+        igabem_forces a = forces_of(gmres), b = forces_of(lu);
+        CU_ASSERT_EQUAL(igabem_solution_options(gmres)->solver, IGABEM_SOLVER_GMRES);
+        CU_ASSERT(a.iterations > 0 && a.iterations < 60);
+        CU_ASSERT(a.residual <= 1e-12);
+        CU_ASSERT(b.iterations == 0 && isnan(b.residual));
+        CU_ASSERT(density_gap(gmres, lu) < 1e-8);
+        CHECK_RELATIVE(a.cw, b.cw, 1e-8);
+        CHECK_RELATIVE(a.cw_pressure, b.cw_pressure, 1e-8);
+        if (k < 2) {
+            CHECK_RELATIVE(a.cw_cutoff_lower, b.cw_cutoff_lower, 1e-8);
+            CHECK_RELATIVE(a.cw_cutoff_upper, b.cw_cutoff_upper, 1e-8);
+        }
+        CHECK_RELATIVE(a.condition, b.condition, 0.01);
+        igabem_solution_free(lu);
+        options.solver = IGABEM_SOLVER_AUTO;
+        lu = solve(hull, &options);
+        CU_ASSERT_EQUAL(igabem_solution_options(lu)->solver, IGABEM_SOLVER_LU);
+        igabem_solution_free(lu);
+        igabem_solution_free(gmres);
+        igabem_hull_free(hull);
+    }
+}
+
 /* With x_s at the stern the variant is plain Neumann-Kelvin, at the bow it is the double body. */
 static void test_stern_limits(void)
 {
@@ -389,6 +445,7 @@ static const struct check_case cases[] = {
     {"hull with irregular knots", test_irregular_knots},
     {"several settings at once", test_many},
     {"sensitivity to the cut-off", test_sensitivity},
+    {"LU and GMRES", test_solvers},
     {"limits of the stern variant", test_stern_limits},
     {"stern length by rule", test_stern_rule},
     {"both sides as patches", test_both_sides},

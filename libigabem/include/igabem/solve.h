@@ -45,6 +45,15 @@ typedef enum igabem_kernel {
     IGABEM_KERNEL_RANKINE      /**< -1/r: unbounded fluid */
 } igabem_kernel;
 
+/** How the linear system is solved. */
+typedef enum igabem_solver {
+    IGABEM_SOLVER_AUTO, /**< LU below 1000 unknowns, else GMRES, and LU should that fail */
+    IGABEM_SOLVER_LU,   /**< LU with partial pivoting, O(n^3) */
+    IGABEM_SOLVER_GMRES /**< restarted GMRES with a band around the diagonal, in order of x, as
+                           preconditioner, to a relative residual of 1e-12, O(n^2) an iteration;
+                           IGABEM_ERROR_NUMERIC when it does not converge */
+} igabem_solver;
+
 /** Receives progress in [0,1]; a non-zero return cancels (IGABEM_ERROR_CANCELLED). */
 typedef int (*igabem_progress)(void *data, double fraction);
 
@@ -82,6 +91,7 @@ typedef struct igabem_options {
     double spectrum_limit; /**< largest t of the Kochin integral when surface-piercing; 20 */
 
     double tolerance;         /**< relative error asked of the quadrature; 1e-5 */
+    igabem_solver solver;     /**< IGABEM_SOLVER_AUTO */
     int sensitivity;          /**< also C_w at 0.85 and 1.15 of the cut-off; 0 */
     int threads;              /**< 0: as OpenMP decides */
     igabem_progress progress; /**< NULL: none */
@@ -126,6 +136,8 @@ typedef struct igabem_forces {
     double share_beyond_cutoff; /**< part of cw from t > t_c */
     double sinkage, trim;       /**< linear: m, positive down; radians, positive bow up */
     double condition;           /**< 1-norm estimate of the matrix */
+    size_t iterations;          /**< of GMRES; 0 with LU */
+    double residual;            /**< relative, of GMRES; NAN with LU */
     double seconds;             /**< wall clock of the solve */
     double memory; /**< bytes of its influences and matrix, what grows as dofs^2; 0 without
                       a solve */
