@@ -2,13 +2,14 @@
  * formulation. Beside the wall clock the processor time, and that of the calling thread: it runs
  * the serial parts and its share of the others, so that their ratio is the speed-up of idle cores
  * even when other work holds the machine up (with OMP_WAIT_POLICY=passive). Usage:
- * igabem_bench_solve [threads [largest number of unknowns]] */
+ * igabem_bench_solve [threads [largest number of unknowns [auto|lu|gmres [sensitivity]]]] */
 #define _POSIX_C_SOURCE 200809L
 #include <igabem/igabem.h>
 #include <math.h>
 #include <nurbs/nurbs.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 static const double length = 5.72;
@@ -86,7 +87,8 @@ int main(int argc, char **argv)
     igabem_hull *hull = read_hull(EXAMPLES_DIR "/hulls/dtmb5415.json");
     if (!hull)
         return EXIT_FAILURE;
-    printf("unknowns     wall  processor  caller  exponent       MB         C_w  condition\n");
+    printf("unknowns     wall  processor  caller  exponent       MB         C_w  condition  "
+           "iterations\n");
     for (size_t k = 0; k < LEVELS; k++) {
         igabem_options options;
         igabem_forces forces;
@@ -96,6 +98,9 @@ int main(int argc, char **argv)
         options.threads = argc > 1 ? atoi(argv[1]) : 0;
         options.elements_u = meshes[k][0];
         options.elements_v = meshes[k][1];
+        if (argc > 3 && strcmp(argv[3], "auto") != 0)
+            options.solver = strcmp(argv[3], "lu") == 0 ? IGABEM_SOLVER_LU : IGABEM_SOLVER_GMRES;
+        options.sensitivity = argc > 4;
         if ((size_t)(meshes[k][0] + 3) * (size_t)(meshes[k][1] + 3) > most)
             break;
         if (!run(hull, &options, &forces, spent))
@@ -108,7 +113,8 @@ int main(int argc, char **argv)
             printf("%8.2f", exponent(2, dofs + n - 2, time + n - 2));
         else
             printf("%8s", "");
-        printf(" %8.1f  %.4e  %9.0f\n", 1e-6 * forces.memory, forces.cw, forces.condition);
+        printf(" %8.1f  %.4e  %9.0f  %10zu\n", 1e-6 * forces.memory, forces.cw, forces.condition,
+               forces.iterations);
         fflush(stdout);
     }
     if (n >= FITTED)

@@ -136,6 +136,13 @@ check "no warning for the Wigley hull" $?
 "$igabem" solve "$hulls/wigley.json" --fr 0.3 --elements 16,4 > "$work/out"
 grep -q "C_w at 0.85 t_c 1.2[0-9]*e-03, at 1.15 t_c 1.2" "$work/out"
 check "C_w beside the cut-off with every result" $?
+"$igabem" solve "$hulls/wigley.json" --fr 0.3 --elements 16,4 --stem-limit none --cutoff 6.1 \
+  --solver gmres --json > "$work/json"
+check "solve by GMRES runs" $?
+expect_value cw 0.0012293 0.003
+grep -q '"solver": "gmres"' "$work/json" && ! grep -q '"iterations": 0' "$work/json"
+check "solver and iterations in the JSON" $?
+expect_code 2 "expected auto, lu or gmres" "$igabem" solve "$hulls/wigley.json" --fr 0.3 --solver qr
 "$igabem" solve "$hulls/wigley.json" --fr 0.3 --elements 8,3 --no-sensitivity | grep -q "0.85 t_c"
 [ $? -ne 0 ]
 check "without it on request" $?

@@ -66,6 +66,9 @@ struct solve_run {
 
 const struct solve_result *solve_run_result(const struct solve_run *run, size_t level, size_t c);
 
+/* As --solver takes it. */
+const char *solve_solver_name(igabem_solver solver);
+
 int solve_print_json(const struct solve_run *run);
 int solve_print_table(const struct solve_run *run);
 

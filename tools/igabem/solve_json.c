@@ -18,6 +18,11 @@ static const char *kernel_name(igabem_kernel kernel)
                                                  : "rankine";
 }
 
+const char *solve_solver_name(igabem_solver solver)
+{
+    return solver == IGABEM_SOLVER_AUTO ? "auto" : solver == IGABEM_SOLVER_LU ? "lu" : "gmres";
+}
+
 static json_t *options_json(const struct solve_result *result)
 {
     const igabem_options *o = &result->options;
@@ -38,6 +43,7 @@ static json_t *options_json(const struct solve_result *result)
     json_object_set_new(json, "stern_blend", real(o->stern_blend));
     json_object_set_new(json, "spectrum_limit", real(o->spectrum_limit));
     json_object_set_new(json, "tolerance", real(o->tolerance));
+    json_object_set_new(json, "solver", json_string(solve_solver_name(o->solver)));
     json_object_set_new(json, "gravity", real(o->gravity));
     json_object_set_new(json, "density", real(o->density));
     return json;
@@ -87,6 +93,8 @@ static json_t *result_json(const struct solve_run *run, const struct solve_resul
     json_object_set_new(json, "sinkage", real(f->sinkage));
     json_object_set_new(json, "trim", real(f->trim));
     json_object_set_new(json, "condition", real(f->condition));
+    json_object_set_new(json, "iterations", json_integer((json_int_t)f->iterations));
+    json_object_set_new(json, "residual", real(f->residual));
     json_object_set_new(json, "memory", real(f->memory));
     json_object_set_new(json, "seconds", real(f->seconds));
     if (result->options.kernel == IGABEM_KERNEL_KELVIN)

@@ -24,6 +24,7 @@ static const char help[] =
     "                      parameter; 0: uniform (0.1)\n"
     "  --degree P          least degree of the source density (3)\n"
     "  --tolerance T       relative error asked of the quadrature (1e-5)\n"
+    "  --solver NAME       auto, lu or gmres (auto: gmres from 1000 unknowns on)\n"
     "  --ladder N          N levels from --refine on, each half as fine again: orders and\n"
     "                      Richardson's value\n"
     "  --no-sensitivity    without C_w at 0.85 and 1.15 of the cut-off angle, a fifth of the time\n"
@@ -74,6 +75,7 @@ enum option_value {
     OPT_REFINE_V,
     OPT_DEGREE,
     OPT_TOLERANCE,
+    OPT_SOLVER,
     OPT_LADDER,
     OPT_SENSITIVITY,
     OPT_NO_SENSITIVITY,
@@ -116,6 +118,7 @@ static const struct option options[] = {
     {"refine-v", required_argument, NULL, OPT_REFINE_V},
     {"degree", required_argument, NULL, OPT_DEGREE},
     {"tolerance", required_argument, NULL, OPT_TOLERANCE},
+    {"solver", required_argument, NULL, OPT_SOLVER},
     {"ladder", required_argument, NULL, OPT_LADDER},
     {"sensitivity", no_argument, NULL, OPT_SENSITIVITY},
     {"no-sensitivity", no_argument, NULL, OPT_NO_SENSITIVITY},
@@ -219,6 +222,16 @@ static int parse_formulation(struct solve_request *request)
     return CLI_OK;
 }
 
+static int parse_solver(igabem_options *used)
+{
+    for (int k = IGABEM_SOLVER_AUTO; k <= IGABEM_SOLVER_GMRES; k++)
+        if (strcmp(optarg, solve_solver_name((igabem_solver)k)) == 0) {
+            used->solver = (igabem_solver)k;
+            return CLI_OK;
+        }
+    return cli_usage("--solver: there is no '%s', expected auto, lu or gmres", optarg);
+}
+
 static int parse_kernel(struct solve_request *request)
 {
     static const char *const names[] = {"kelvin", "double-body", "rankine"};
@@ -295,6 +308,8 @@ static int take(int opt, struct solve_request *r, bool *done)
         return integer(opt, 1, 9, &o->degree);
     case OPT_TOLERANCE:
         return number(opt, 0, false, &o->tolerance);
+    case OPT_SOLVER:
+        return parse_solver(o);
     case OPT_LADDER:
         return integer(opt, 2, 16, &r->ladder);
     case OPT_SENSITIVITY:

@@ -42,6 +42,8 @@ static void print_settings(const struct solve_run *run, const struct solve_resul
         printf(", nu_s %.4g", run->info.nu_s);
     if (o->formulation == IGABEM_NEUMANN_KELVIN_STERN)
         printf(", x_s %.4g m", run->info.hydrostatics.x_aft + o->stern_length * run->info.length);
+    if (f->iterations > 0)
+        printf(", GMRES %zu iterations", f->iterations);
     printf("\n");
 }
 
