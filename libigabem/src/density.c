@@ -123,8 +123,7 @@ static double break_at(const struct density_patch *patch, int d, size_t k, size_
 }
 
 /* Clamped knots of its own, their breaks made knots of the surface. */
-static nurbs_status own_knots(struct density_patch *patch, int d, int elements,
-                              double waterline_span)
+static nurbs_status own_knots(struct density_patch *patch, int d, int elements, double least)
 {
     size_t p = (size_t)patch->degree[d], m = (size_t)elements;
     const double *domain = patch->hull.domain[d];
@@ -138,8 +137,7 @@ static nurbs_status own_knots(struct density_patch *patch, int d, int elements,
         knots[m + p + k] = domain[1];
     }
     for (size_t k = 1; k < m; k++)
-        knots[p + k] =
-            domain[0] + (domain[1] - domain[0]) * break_at(patch, d, k, m, waterline_span);
+        knots[p + k] = domain[0] + (domain[1] - domain[0]) * break_at(patch, d, k, m, least);
     return insert_missing(&patch->surface, d, knots + p + 1, m - 1);
 }
 
@@ -236,7 +234,13 @@ static void collocation_abscissae(struct density_patch *patch, int d)
     }
 }
 
-static nurbs_status shape_and_basis(const struct hull_patch *hull, const struct density_rule *rule,
+/* A density_rule for u and v of one patch. */
+struct patch_rule {
+    int degree, refine[2], elements[2];
+    double least[2]; /* width of own spans at the waterline, share of the range */
+};
+
+static nurbs_status shape_and_basis(const struct hull_patch *hull, const struct patch_rule *rule,
                                     struct density_patch *patch)
 {
     nurbs_status status = elevated_surface(hull->surface, rule->degree, &patch->surface);
@@ -252,7 +256,7 @@ static nurbs_status shape_and_basis(const struct hull_patch *hull, const struct 
     }
     for (int d = 0; d < 2 && status == NURBS_OK; d++)
         if (rule->elements[d] > 0)
-            status = own_knots(patch, d, rule->elements[d], rule->waterline_span);
+            status = own_knots(patch, d, rule->elements[d], rule->least[d]);
     for (int d = 0; d < 2 && status == NURBS_OK; d++)
         status = find_breaks(patch, d);
     patch->hull.surface = patch->surface;
@@ -261,14 +265,31 @@ static nurbs_status shape_and_basis(const struct hull_patch *hull, const struct 
     return status;
 }
 
-static igabem_status create_patch(const struct hull_patch *hull, size_t index,
+/* The rule of the hull, along and around it, as one for the directions u and v of a patch. */
+static struct patch_rule rule_of_patch(const igabem_hull *hull, size_t index,
+                                       const struct density_rule *rule)
+{
+    const struct hull_patch *patch = &hull->patches[index];
+    struct patch_rule own = {.degree = rule->degree};
+    for (int d = 0; d < 2; d++) {
+        int around = hull_is_around(patch, d);
+        double share = hull->run[around] > 0 ? patch->length[d] / hull->run[around] : 1.0;
+        own.refine[d] = rule->refine[around];
+        own.elements[d] = hull_share(hull, index, d, rule->elements[around]);
+        own.least[d] = fmin(rule->waterline_span / share, 0.5);
+    }
+    return own;
+}
+
+static igabem_status create_patch(const igabem_hull *hull, size_t index,
                                   const struct density_rule *rule, size_t offset,
                                   struct density_patch *patch)
 {
-    patch->hull = *hull;
+    const struct patch_rule own = rule_of_patch(hull, index, rule);
+    patch->hull = hull->patches[index];
     patch->hull.surface = NULL;
     patch->offset = offset;
-    nurbs_status status = shape_and_basis(hull, rule, patch);
+    nurbs_status status = shape_and_basis(&hull->patches[index], &own, patch);
     if (status != NURBS_OK)
         return from_nurbs(status, index);
     for (int d = 0; d < 2; d++) {
@@ -334,7 +355,7 @@ igabem_status density_create(const igabem_hull *hull, const struct density_rule 
     igabem_status status = IGABEM_OK;
     for (size_t k = 0; k < hull->n && status == IGABEM_OK; k++) {
         struct density_patch *patch = &density->patch[k];
-        status = create_patch(&hull->patches[k], k, rule, density->n, patch);
+        status = create_patch(hull, k, rule, density->n, patch);
         if (status == IGABEM_OK)
             density->n += patch->size[0] * patch->size[1];
     }

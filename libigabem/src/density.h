@@ -38,11 +38,12 @@ struct density {
     double (*jet)[6]; /* [n] Su, Sv there */
 };
 
+/* Pairs: along the hull and around it; a patch takes its share, whatever its u and v are. */
 struct density_rule {
     int degree;      /* least */
     int refine[2];   /* parts of each span of the hull's knots, >= 1 */
     int elements[2]; /* uniform spans, 0: the hull's own, refined; both 0: the hull's own basis */
-    double waterline_span; /* least width of own spans at the waterline, share of the range */
+    double waterline_span; /* least width of own spans at the waterline, share of the girth */
 };
 
 /* Creates the space; copies what it needs of the hull. */

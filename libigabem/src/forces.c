@@ -80,7 +80,7 @@ static igabem_status pressure_forces(const igabem_solution *solution, igabem_for
         forces->cw_pressure_linear = scale * sums.drag_linear;
         forces->cw_pressure = scale * (sums.drag_linear + sums.drag_square + sums.run_up);
         forces->cw_run_up = scale * sums.run_up;
-        if (solution->info.transom)
+        if (solution->info.transom == IGABEM_TRANSOM_OPEN)
             forces->cw_transom = scale * sums.transom;
     }
     attitude(solution, &sums, forces);

@@ -32,16 +32,32 @@ static igabem_status copy_patches(struct igabem_hull *hull, const nurbs_surface 
     return IGABEM_OK;
 }
 
-/* libnurbs integrates over the half hull and doubles; a body given whole has been counted twice. */
-static void halve(nurbs_hydrostatics *h)
+/* libnurbs integrates over a half hull and doubles: of a body given whole each side counts half. */
+static void add_side(nurbs_hydrostatics *sum, const nurbs_hydrostatics *side)
 {
-    h->wetted_area /= 2;
-    h->volume /= 2;
-    h->waterplane_area /= 2;
-    h->waterplane_inertia_x /= 2;
-    h->waterplane_inertia_y /= 2;
-    h->transom_area /= 2;
-    h->section_area_max /= 2;
+    double volume = side->volume / 2, plane = side->waterplane_area / 2;
+    double all = sum->volume + volume, planes = sum->waterplane_area + plane;
+    for (int k = 0; k < 3; k++)
+        sum->centroid[k] = (sum->volume * sum->centroid[k] + volume * side->centroid[k]) / all;
+    if (planes > 0) {
+        double apart = side->waterplane_centre - sum->waterplane_centre;
+        sum->waterplane_inertia_y +=
+            side->waterplane_inertia_y / 2 + sum->waterplane_area * plane / planes * apart * apart;
+        sum->waterplane_centre += plane / planes * apart;
+    }
+    sum->volume = all;
+    sum->waterplane_area = planes;
+    sum->waterplane_inertia_x += side->waterplane_inertia_x / 2;
+    sum->wetted_area += side->wetted_area / 2;
+    sum->transom_area += side->transom_area / 2;
+    sum->section_area_max += side->section_area_max / 2;
+    sum->section_area_max_x = side->section_area_max_x;
+    sum->beam += side->beam / 2;
+    sum->draft = fmax(sum->draft, side->draft);
+    sum->keel_draft = fmax(sum->keel_draft, side->keel_draft);
+    sum->x_aft = fmin(sum->x_aft, side->x_aft);
+    sum->x_fore = fmax(sum->x_fore, side->x_fore);
+    sum->error = fmax(sum->error, side->error);
 }
 
 /* The patch on the side y >= 0. Creates *side. */
@@ -61,42 +77,98 @@ static igabem_status to_port(const struct igabem_hull *hull, size_t p, nurbs_sur
     return status ? hull_nurbs_fail(status, "mirroring a patch") : IGABEM_OK;
 }
 
-static igabem_status find_hydrostatics(struct igabem_hull *hull)
+/* Hydrostatics of the patches on the side of patch `first`, from there on, as a half hull doubled.
+ */
+static igabem_status side_hydrostatics(const struct igabem_hull *hull, size_t first,
+                                       nurbs_hydrostatics *side)
 {
     nurbs_surface **half = calloc(hull->n, sizeof *half);
+    size_t n = 0;
     igabem_status status = IGABEM_OK;
     if (!half)
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu patches", hull->n);
-    for (size_t p = 0; !status && p < hull->n; p++)
-        status = to_port(hull, p, &half[p]);
+    for (size_t p = first; !status && p < hull->n; p++)
+        if (hull_same_side(&hull->patches[first], &hull->patches[p]))
+            status = to_port(hull, p, &half[n++]);
     if (!status) {
-        nurbs_status computed = nurbs_hydrostatics_compute(
-            hull->n, (const nurbs_surface *const *)half, 0.0, &hull->hydrostatics);
+        nurbs_status computed =
+            nurbs_hydrostatics_compute(n, (const nurbs_surface *const *)half, 0.0, side);
         if (computed)
             status = hull_nurbs_fail(computed, "hydrostatics");
     }
-    for (size_t p = 0; p < hull->n; p++)
+    for (size_t p = 0; p < n; p++)
         nurbs_surface_free(half[p]);
     free(half);
+    return status;
+}
+
+static igabem_status find_hydrostatics(struct igabem_hull *hull)
+{
+    nurbs_hydrostatics *h = &hull->hydrostatics, side;
+    igabem_status status = side_hydrostatics(hull, 0, h);
+    if (!status && !hull->symmetric) {
+        side = *h;
+        *h = (nurbs_hydrostatics){.x_aft = INFINITY, .x_fore = -INFINITY};
+        add_side(h, &side);
+        size_t other = 1;
+        while (other < hull->n && hull_same_side(&hull->patches[0], &hull->patches[other]))
+            other++;
+        if (other < hull->n)
+            status = side_hydrostatics(hull, other, &side);
+        if (other < hull->n && !status)
+            add_side(h, &side);
+    }
     if (status)
         return status;
-    if (!hull->symmetric)
-        halve(&hull->hydrostatics);
-    if (!(hull->hydrostatics.volume > 0))
+    if (!(h->volume > 0))
         return igabem_fail(IGABEM_ERROR_GEOMETRY,
                            "the patches enclose the volume %g m^3, expected a positive one: are "
                            "patches missing or folded?",
-                           hull->hydrostatics.volume);
+                           h->volume);
     return IGABEM_OK;
+}
+
+/* Which patches close the stern. */
+static igabem_status find_transom(struct igabem_hull *hull)
+{
+    const nurbs_surface **list = malloc(hull->n * sizeof(const nurbs_surface *));
+    int *closes = malloc(hull->n * sizeof *closes);
+    igabem_status status = IGABEM_OK;
+    if (!list || !closes)
+        status = igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu patches", hull->n);
+    for (size_t p = 0; p < hull->n && !status; p++)
+        list[p] = hull->patches[p].surface;
+    if (!status && nurbs_transom_patches(hull->n, list, 0.0, closes))
+        status = hull_nurbs_fail(NURBS_ERROR_GEOMETRY, "the stern");
+    for (size_t p = 0; p < hull->n && !status; p++) {
+        hull->patches[p].transom = closes[p];
+        if (closes[p])
+            hull->transom = IGABEM_TRANSOM_CLOSED;
+    }
+    free(list);
+    free(closes);
+    return status;
 }
 
 static igabem_status analyse(struct igabem_hull *hull)
 {
-    igabem_status status = hull_orient(hull);
+    nurbs_topology topology = {0};
+    igabem_status status = hull_bounds(hull);
+    if (!status)
+        status = hull_topology(hull, &topology);
+    if (!status)
+        status = hull_orient(hull, &topology);
     if (!status)
         status = hull_check(hull);
     if (!status)
+        status = hull_measure(hull);
+    if (!status)
+        status = find_transom(hull);
+    if (!status)
         status = hull_classify_edges(hull);
+    if (!status)
+        status = hull_check_joints(hull, &topology);
+    nurbs_topology_free(&topology);
     if (!status)
         status = hull_check_submergence(hull);
     if (!status)

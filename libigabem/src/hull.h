@@ -4,6 +4,7 @@
 #define HULL_H
 
 #include <igabem/hull.h>
+#include <nurbs/topology.h>
 
 /* The four edges of a patch: u first, u last, v first, v last. */
 enum { HULL_U0, HULL_U1, HULL_V0, HULL_V1, HULL_EDGES };
@@ -21,6 +22,12 @@ struct hull_patch {
     double domain[2][2];    /* first and last knot of u and of v */
     double sign;            /* outward normal: sign * Su x Sv, sign = +-1 */
     double side[2];         /* least and largest y of the samples, m */
+    int transom;            /* a flat face that closes the stern */
+    int along;              /* direction that runs lengthwise; -1: the patch lies across the hull */
+    double length[2];       /* of the longest line of either direction, m */
+    double x[2];            /* mean x of the aft and of the fore end, m */
+    size_t spans[2];        /* knot spans */
+    double span_ratio[2];   /* of the widest to the narrowest */
     enum hull_edge edge[HULL_EDGES];
 };
 
@@ -31,7 +38,10 @@ struct igabem_hull {
     double length;             /* reference length, m */
     double extent;             /* x_fore - x_aft of the patches, m: scale of all tolerances */
     double lower[3], upper[3]; /* bounding box of the sampled patches, m */
-    int surface_piercing, transom;
+    double run[2];             /* length from end to end, largest half girth, in patch lengths, m */
+    double run_spans[2];       /* the same in knot spans */
+    int surface_piercing;
+    int transom; /* igabem_transom */
     double nu_s;
     nurbs_hydrostatics hydrostatics;
 };
@@ -49,12 +59,29 @@ int hull_normal(const struct hull_patch *patch, const double triples[9], double 
 void hull_waterline_normal(const struct hull_patch *patch, int edge, const double triples[9],
                            double nu[2], double *dl);
 
+/* Whether direction d of a patch runs around the hull (1) or along it (0). */
+int hull_is_around(const struct hull_patch *patch, int d);
+
+/* The part that falls to direction d of patch p of a number of elements along the hull or around
+ * it: by length, at least 1; 0 for 0. */
+int hull_share(const struct igabem_hull *hull, size_t p, int d, int elements);
+
+/* Whether two patches lie on the same side of the centre plane. */
+int hull_same_side(const struct hull_patch *a, const struct hull_patch *b);
+
+/* Edges of different patches, or opposite ones of the same patch, this close run together, m. */
+double hull_join_tolerance(const struct igabem_hull *hull);
+
 /* Passes on a failure of libnurbs; what names the object ("patch 2"). */
 igabem_status hull_nurbs_fail(nurbs_status status, const char *what);
 
 /* The steps of igabem_hull_create, in order; each names patch and place when it refuses. */
-igabem_status hull_orient(struct igabem_hull *hull);
+igabem_status hull_bounds(struct igabem_hull *hull);
+igabem_status hull_topology(const struct igabem_hull *hull, nurbs_topology *topology);
+igabem_status hull_orient(struct igabem_hull *hull, const nurbs_topology *topology);
+igabem_status hull_measure(struct igabem_hull *hull);
 igabem_status hull_check(struct igabem_hull *hull);
+igabem_status hull_check_joints(const struct igabem_hull *hull, const nurbs_topology *topology);
 igabem_status hull_classify_edges(struct igabem_hull *hull);
 igabem_status hull_check_submergence(const struct igabem_hull *hull);
 igabem_status hull_waterline_angle(const struct igabem_hull *hull, double *nu_s);

@@ -11,6 +11,11 @@ igabem_status hull_nurbs_fail(nurbs_status status, const char *what)
     return igabem_fail(code, "%s: %s", what, nurbs_last_error());
 }
 
+int hull_same_side(const struct hull_patch *a, const struct hull_patch *b)
+{
+    return (a->side[0] + a->side[1] < 0) == (b->side[0] + b->side[1] < 0);
+}
+
 void hull_edge_parameters(const struct hull_patch *patch, int edge, double s, double uv[2])
 {
     int fixed = edge == HULL_U0 || edge == HULL_U1 ? 0 : 1;

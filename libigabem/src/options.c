@@ -112,40 +112,18 @@ static igabem_status check(const igabem_options *options)
     return status;
 }
 
-/* Spans of one direction of a patch; *ratio of the largest to the smallest. */
-static size_t spans(const struct hull_patch *patch, int direction, double *ratio)
-{
-    size_t n = nurbs_surface_size(patch->surface, direction), count = 0;
-    size_t last = n + (size_t)nurbs_surface_degree(patch->surface, direction);
-    const double *knots = nurbs_surface_knots(patch->surface, direction);
-    double smallest = INFINITY, largest = 0.0;
-    for (size_t k = 0; k < last; k++) {
-        double span = knots[k + 1] - knots[k];
-        if (!(span > 0))
-            continue;
-        smallest = fmin(smallest, span);
-        largest = fmax(largest, span);
-        count++;
-    }
-    *ratio = largest / smallest;
-    return count;
-}
-
 /* Knots that are crowded in some places and far apart in others waste unknowns here and lack them
  * there, and they move when the shape does. */
 static void choose_elements(const igabem_hull *hull, igabem_options *options)
 {
     int *elements[2] = {&options->elements_u, &options->elements_v};
-    size_t count[2] = {0, 0};
     int own = 0;
-    for (int d = 0; d < 2 && hull->n == 1; d++) {
-        double ratio;
-        count[d] = spans(&hull->patches[0], d, &ratio);
-        own |= ratio > irregular_spans;
-    }
+    for (size_t p = 0; p < hull->n; p++)
+        for (int d = 0; d < 2; d++)
+            own |= hull->patches[p].span_ratio[d] > irregular_spans;
     for (int d = 0; d < 2; d++)
         if (*elements[d] < 0)
-            *elements[d] = own ? (int)count[d] : 0;
+            *elements[d] = own ? (int)lround(hull->run_spans[d]) : 0;
 }
 
 /* Waves that the stern rows make and feel among themselves are shorter than the stern part if it is

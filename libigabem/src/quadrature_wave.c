@@ -6,7 +6,9 @@ enum { WAVE_POINTS = 10, WAVE_DEPTH = 40 };
 
 double wave_reach(const struct wave_rule *rule, double depth)
 {
-    double square = -log(rule->tolerance) / (rule->k0 * (depth + rule->clearance)) - 1.0;
+    /* On the waterline the depth is zero to rounding, of either sign. */
+    double below = fmax(depth + rule->clearance, 0.0);
+    double square = -log(rule->tolerance) / (rule->k0 * below) - 1.0;
     if (!(square < rule->t_max * rule->t_max))
         return rule->t_max;
     return sqrt(fmax(square, 0.0));

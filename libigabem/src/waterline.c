@@ -23,14 +23,20 @@ static int by_x(const void *a, const void *b)
     return (xa > xb) - (xa < xb);
 }
 
-/* Stations along every waterline edge. Fills stations[SAMPLES] per edge. */
+static int is_waterline(const struct hull_patch *patch, int edge)
+{
+    return patch->edge[edge] == HULL_EDGE_WATERLINE && !patch->transom;
+}
+
+/* Stations along every waterline edge but that of a closed transom. Fills stations[SAMPLES] per
+ * edge. */
 static igabem_status sample(const struct igabem_hull *hull, struct station *stations, size_t *n)
 {
     *n = 0;
     for (size_t p = 0; p < hull->n; p++)
         for (int e = 0; e < HULL_EDGES; e++) {
             const struct hull_patch *patch = &hull->patches[p];
-            for (int i = 0; patch->edge[e] == HULL_EDGE_WATERLINE && i < SAMPLES; i++) {
+            for (int i = 0; is_waterline(patch, e) && i < SAMPLES; i++) {
                 double uv[2], triples[9], nu[2], dl;
                 hull_edge_parameters(patch, e, i / (SAMPLES - 1.0), uv);
                 nurbs_status status = nurbs_surface_eval(patch->surface, 1, 1, uv, triples);
@@ -76,7 +82,7 @@ igabem_status hull_waterline_angle(const struct igabem_hull *hull, double *nu_s)
     size_t edges = 0, n = 0;
     for (size_t p = 0; p < hull->n; p++)
         for (int e = 0; e < HULL_EDGES; e++)
-            edges += hull->patches[p].edge[e] == HULL_EDGE_WATERLINE;
+            edges += (size_t)is_waterline(&hull->patches[p], e);
     if (edges == 0)
         return IGABEM_OK;
     struct station *stations = malloc(edges * SAMPLES * sizeof *stations);

@@ -28,6 +28,10 @@ nurbs_status patch_visit(const nurbs_surface *surface, size_t order, patch_row *
 nurbs_status patch_integrate(const nurbs_surface *surface, double level, size_t order,
                              patch_sums *sums);
 
+/* Signs that turn the patches' normals outwards: patches whose edges run together alike, and every
+ * connected part so that it encloses a positive volume with y = 0 and the level. Fills sign[n]. */
+nurbs_status outward_signs(size_t n, const nurbs_surface *const *patches, double level, int *sign);
+
 /* Number of non-empty knot spans of a direction. */
 size_t patch_spans(const nurbs_surface *surface, int direction);
 
@@ -37,6 +41,8 @@ typedef struct waterplane {
     double area, moment_x, inertia_xx, inertia_yy; /* 2y, 2xy, 2y^3/3, 2x^2 y times dx */
     double beam, aft, fore;
 } waterplane;
+/* Whether all control points of edge e (u first, u last, v first, v last) lie at the level. */
+int edge_at_level(const nurbs_surface *surface, int e, double level);
 nurbs_status waterplane_integrate(size_t n, const nurbs_surface *const *patches, double level,
                                   waterplane *plane);
 
@@ -44,11 +50,12 @@ nurbs_status waterplane_integrate(size_t n, const nurbs_surface *const *patches,
 nurbs_status extreme_point(size_t n, const nurbs_surface *const *patches, int coordinate,
                            double sign, double *value);
 
-/* Area of both sides and lowest z of the section x = constant. */
-nurbs_status section_area(size_t n, const nurbs_surface *const *patches, double x, double *area,
-                          double *low);
+/* Area of both sides and lowest z of the section x = constant; sign[n] turns the patches outwards.
+ */
+nurbs_status section_area(size_t n, const nurbs_surface *const *patches, const int *sign, double x,
+                          double *area, double *low);
 /* Largest such area between aft and fore. */
-nurbs_status section_area_largest(size_t n, const nurbs_surface *const *patches, double aft,
-                                  double fore, double *area, double *at);
+nurbs_status section_area_largest(size_t n, const nurbs_surface *const *patches, const int *sign,
+                                  double aft, double fore, double *area, double *at);
 
 #endif

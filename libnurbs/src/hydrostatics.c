@@ -6,9 +6,16 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Outward sums of all patches. */
-static nurbs_status sum_patches(size_t n, const nurbs_surface *const *patches, double level,
-                                size_t order, patch_sums *total)
+/* How a patch counts. */
+typedef struct patch_role {
+    int *sign;    /* turns it outwards */
+    int *transom; /* it closes the stern */
+} patch_role;
+
+/* Outward sums of all patches; area and normal without the transom. */
+static nurbs_status sum_patches(size_t n, const nurbs_surface *const *patches,
+                                const patch_role *role, double level, size_t order,
+                                patch_sums *total)
 {
     *total = no_sums;
     for (size_t k = 0; k < n; k++) {
@@ -16,11 +23,10 @@ static nurbs_status sum_patches(size_t n, const nurbs_surface *const *patches, d
         nurbs_status status = patch_integrate(patches[k], level, order, &patch);
         if (status != NURBS_OK)
             return status;
-        /* The normal leaves the body sideways and downwards. */
-        double sign = patch.y_ny - patch.depth_nz < 0 ? -1 : 1;
-        total->area += patch.area;
+        int sign = role->sign[k];
+        total->area += role->transom[k] ? 0 : patch.area;
         for (int c = 0; c < 3; c++) {
-            total->normal[c] += sign * patch.normal[c];
+            total->normal[c] += role->transom[k] ? 0 : sign * patch.normal[c];
             total->low[c] = fmin(total->low[c], patch.low[c]);
             total->high[c] = fmax(total->high[c], patch.high[c]);
         }
@@ -33,8 +39,9 @@ static nurbs_status sum_patches(size_t n, const nurbs_surface *const *patches, d
 }
 
 /* Raises the order until two of them agree, or until more points would only cost time. */
-static nurbs_status sum_adaptively(size_t n, const nurbs_surface *const *patches, double level,
-                                   patch_sums *total, double *error)
+static nurbs_status sum_adaptively(size_t n, const nurbs_surface *const *patches,
+                                   const patch_role *role, double level, patch_sums *total,
+                                   double *error)
 {
     size_t spans = 0;
     for (size_t k = 0; k < n; k++)
@@ -42,9 +49,9 @@ static nurbs_status sum_adaptively(size_t n, const nurbs_surface *const *patches
     size_t order = spans > 300 ? 3 : 6;
     for (;;) {
         patch_sums coarse;
-        nurbs_status status = sum_patches(n, patches, level, order, &coarse);
+        nurbs_status status = sum_patches(n, patches, role, level, order, &coarse);
         if (status == NURBS_OK)
-            status = sum_patches(n, patches, level, order + 2, total);
+            status = sum_patches(n, patches, role, level, order + 2, total);
         if (status != NURBS_OK)
             return status;
         *error = fmax(fabs(total->area - coarse.area) / total->area,
@@ -95,29 +102,25 @@ static nurbs_status fill_plane(size_t n, const nurbs_surface *const *patches,
     return status;
 }
 
-static nurbs_status fill_depths(size_t n, const nurbs_surface *const *patches, double level,
-                                nurbs_hydrostatics *result)
+static nurbs_status fill_depths(size_t n, const nurbs_surface *const *patches, const int *sign,
+                                double level, nurbs_hydrostatics *result)
 {
     double lowest = 0, keel = 0, area;
     nurbs_status status = extreme_point(n, patches, 2, -1, &lowest);
     if (status == NURBS_OK)
-        status = section_area(n, patches, 0.5 * (result->x_aft + result->x_fore), &area, &keel);
+        status =
+            section_area(n, patches, sign, 0.5 * (result->x_aft + result->x_fore), &area, &keel);
     result->draft = level - lowest;
     result->keel_draft = level - keel;
     return status;
 }
 
-nurbs_status nurbs_hydrostatics_compute(size_t n, const nurbs_surface *const *wetted, double level,
-                                        nurbs_hydrostatics *result)
+static nurbs_status compute(size_t n, const nurbs_surface *const *wetted, const patch_role *role,
+                            double level, nurbs_hydrostatics *result)
 {
     patch_sums sums;
     waterplane plane;
-    *result = (nurbs_hydrostatics){0};
-    if (n == 0)
-        return nurbs_fail(NURBS_ERROR_ARGUMENT, "no patches");
-    if (!isfinite(level))
-        return nurbs_fail(NURBS_ERROR_ARGUMENT, "level %g is not finite", level);
-    nurbs_status status = sum_adaptively(n, wetted, level, &sums, &result->error);
+    nurbs_status status = sum_adaptively(n, wetted, role, level, &sums, &result->error);
     if (status == NURBS_OK)
         status = check_half(&sums, level);
     if (status == NURBS_OK)
@@ -134,9 +137,30 @@ nurbs_status nurbs_hydrostatics_compute(size_t n, const nurbs_surface *const *we
     result->transom_area = open > 1e-9 * result->wetted_area ? open : 0;
     status = fill_plane(n, wetted, &plane, result);
     if (status == NURBS_OK)
-        status = fill_depths(n, wetted, level, result);
+        status = fill_depths(n, wetted, role->sign, level, result);
     if (status == NURBS_OK)
-        status = section_area_largest(n, wetted, result->x_aft, result->x_fore,
+        status = section_area_largest(n, wetted, role->sign, result->x_aft, result->x_fore,
                                       &result->section_area_max, &result->section_area_max_x);
+    return status;
+}
+
+nurbs_status nurbs_hydrostatics_compute(size_t n, const nurbs_surface *const *wetted, double level,
+                                        nurbs_hydrostatics *result)
+{
+    *result = (nurbs_hydrostatics){0};
+    if (n == 0)
+        return nurbs_fail(NURBS_ERROR_ARGUMENT, "no patches");
+    if (!isfinite(level))
+        return nurbs_fail(NURBS_ERROR_ARGUMENT, "level %g is not finite", level);
+    patch_role role = {malloc(n * sizeof *role.sign), malloc(n * sizeof *role.transom)};
+    nurbs_status status = role.sign && role.transom
+                              ? outward_signs(n, wetted, level, role.sign)
+                              : nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu patches", n);
+    if (status == NURBS_OK)
+        status = nurbs_transom_patches(n, wetted, level, role.transom);
+    if (status == NURBS_OK)
+        status = compute(n, wetted, &role, level, result);
+    free(role.sign);
+    free(role.transom);
     return status;
 }

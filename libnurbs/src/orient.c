@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Parameters of the design grid of patch `index`; u runs from the other end when turned. */
 static nurbs_status copy_parameters(const nurbs_patches *from, size_t index, int turned,
@@ -101,58 +102,78 @@ nurbs_status nurbs_patches_mirror(const nurbs_patches *patches, int axis, nurbs_
     return finish(status, result);
 }
 
-/* Spreads the sign of patch `seed` over all that are joined to it; `part` numbers them. */
-static nurbs_status spread(const nurbs_topology *topology, size_t patches, size_t seed, int part,
-                           int *sign, int *parts)
+/* Edges that meet in a corner at a small angle run within the tolerance for a little while. */
+static int is_short(const nurbs_topology *topology, const nurbs_joint *joint)
 {
-    size_t *queue = malloc(patches * sizeof *queue), head = 0, tail = 0;
-    nurbs_status status = NURBS_OK;
-    if (!queue)
-        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu patches", patches);
+    const double share = 0.02;
+    const nurbs_edge *a = &topology->edge[joint->edge[0]], *b = &topology->edge[joint->edge[1]];
+    return joint->length < share * fmin(a->length, b->length);
+}
+
+/* Spreads the sign of patch `seed` over all that are joined to it; `number` is that of its part. */
+static nurbs_status spread(const nurbs_topology *topology, size_t seed, size_t number,
+                           size_t *queue, int *sign, size_t *part)
+{
+    size_t head = 0, tail = 0;
     queue[tail++] = seed;
     sign[seed] = 1;
-    parts[seed] = part;
-    while (head < tail && status == NURBS_OK) {
+    part[seed] = number;
+    while (head < tail) {
         size_t at = queue[head++];
-        for (size_t j = 0; j < topology->joints && status == NURBS_OK; j++) {
+        for (size_t j = 0; j < topology->joints; j++) {
             const nurbs_joint *joint = &topology->joint[j];
             size_t a = joint->edge[0] / 4, b = joint->edge[1] / 4;
-            if (a != at && b != at)
+            if ((a != at && b != at) || is_short(topology, joint))
                 continue;
             size_t other = a == at ? b : a;
             int wanted = joint->consistent ? sign[at] : -sign[at];
             if (sign[other] == 0) {
                 sign[other] = wanted;
-                parts[other] = part;
+                part[other] = number;
                 queue[tail++] = other;
             } else if (sign[other] != wanted) {
-                status = nurbs_fail(NURBS_ERROR_GEOMETRY,
-                                    "patches %zu and %zu meet so that no orientation suits all "
-                                    "patches joined to them",
-                                    a, b);
+                return nurbs_fail(NURBS_ERROR_GEOMETRY,
+                                  "patches %zu and %zu meet at (%.6g, %.6g, %.6g) so that no "
+                                  "orientation suits all patches joined to them",
+                                  a, b, joint->at[0], joint->at[1], joint->at[2]);
             }
         }
     }
+    return NURBS_OK;
+}
+
+nurbs_status nurbs_topology_orient(const nurbs_topology *topology, int *sign, size_t *part,
+                                   size_t *parts)
+{
+    size_t n = topology->edges / 4, *queue = malloc((n + 1) * sizeof *queue);
+    nurbs_status status = NURBS_OK;
+    *parts = 0;
+    if (!queue)
+        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu patches", n);
+    memset(sign, 0, n * sizeof *sign);
+    for (size_t k = 0; k < n && status == NURBS_OK; k++)
+        if (sign[k] == 0)
+            status = spread(topology, k, (*parts)++, queue, sign, part);
     free(queue);
     return status;
 }
 
 /* Turns every connected part outwards. */
-static nurbs_status point_outwards(const nurbs_patches *patches, int count, const int *parts,
+static nurbs_status point_outwards(const nurbs_patches *patches, size_t parts, const size_t *part,
                                    int *sign)
 {
     size_t n = nurbs_patches_count(patches);
-    double *volume = calloc((size_t)count + 1, sizeof *volume);
+    double *volume = calloc(parts + 1, sizeof *volume);
     nurbs_status status = NURBS_OK;
     if (!volume)
-        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %d parts", count);
+        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu parts", parts);
     for (size_t k = 0; k < n && status == NURBS_OK; k++) {
         nurbs_moments m;
         status = nurbs_surface_moments(nurbs_patches_get(patches, k), &m, NULL);
-        volume[parts[k]] += sign[k] * (status == NURBS_OK ? m.volume : 0);
+        volume[part[k]] += sign[k] * (status == NURBS_OK ? m.volume : 0);
     }
     for (size_t k = 0; k < n && status == NURBS_OK; k++)
-        sign[k] *= volume[parts[k]] < 0 ? -1 : 1;
+        sign[k] *= volume[part[k]] < 0 ? -1 : 1;
     free(volume);
     return status;
 }
@@ -160,20 +181,20 @@ static nurbs_status point_outwards(const nurbs_patches *patches, int count, cons
 nurbs_status nurbs_patches_orient(const nurbs_patches *patches, double tolerance,
                                   nurbs_patches **result, size_t *turned)
 {
-    size_t n = nurbs_patches_count(patches), count = 0;
+    size_t n = nurbs_patches_count(patches), count = 0, parts = 0;
     nurbs_topology topology;
     *result = NULL;
     nurbs_status status = nurbs_patches_topology(patches, tolerance, &topology);
     if (status != NURBS_OK)
         return status;
-    int *sign = calloc(2 * n + 1, sizeof *sign), *parts = sign ? sign + n : NULL, found = 0;
-    if (!sign)
+    int *sign = malloc((n + 1) * sizeof *sign);
+    size_t *part = malloc((n + 1) * sizeof *part);
+    if (!sign || !part)
         status = nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu patches", n);
-    for (size_t k = 0; k < n && status == NURBS_OK; k++)
-        if (sign[k] == 0)
-            status = spread(&topology, n, k, found++, sign, parts);
     if (status == NURBS_OK)
-        status = point_outwards(patches, found, parts, sign);
+        status = nurbs_topology_orient(&topology, sign, part, &parts);
+    if (status == NURBS_OK)
+        status = point_outwards(patches, parts, part, sign);
     if (status == NURBS_OK)
         status = start_copy(patches, 1, result);
     for (size_t k = 0; k < n && status == NURBS_OK; k++) {
@@ -183,6 +204,7 @@ nurbs_status nurbs_patches_orient(const nurbs_patches *patches, double tolerance
     if (turned)
         *turned = count;
     free(sign);
+    free(part);
     nurbs_topology_free(&topology);
     return finish(status, result);
 }

@@ -11,6 +11,9 @@
 /* A patch with `along` its lengthwise direction, and Gauss points across. */
 typedef struct lengthwise {
     const nurbs_surface *surface;
+    int sign;     /* turns Su x Sv outwards */
+    double slack; /* lines are taken to end this much further aft, so that of two patches that meet
+                     in the plane of the section one counts, whatever the rounding */
     int along;
     double first, last; /* domain along */
     size_t n;
@@ -36,7 +39,8 @@ static nurbs_status evaluate(const lengthwise *patch, double s, double t, double
     return nurbs_surface_eval(patch->surface, 1, 1, uv, out);
 }
 
-static nurbs_status lengthwise_create(const nurbs_surface *surface, lengthwise *patch)
+static nurbs_status lengthwise_create(const nurbs_surface *surface, int sign, double slack,
+                                      lengthwise *patch)
 {
     int along = extent_x(surface, 1) > extent_x(surface, 0), across = !along;
     const double *knots = nurbs_surface_knots(surface, across),
@@ -45,14 +49,14 @@ static nurbs_status lengthwise_create(const nurbs_surface *surface, lengthwise *
            size = nurbs_surface_size(surface, across), at = 0;
     double nodes[16], weights[16];
     nurbs_status status = nurbs_gauss_legendre(order, nodes, weights);
-    *patch = (lengthwise){surface,
-                          along,
-                          range[0],
-                          range[nurbs_surface_size(surface, along)],
-                          order * spans + 2,
-                          malloc(4 * (order * spans + 2) * sizeof(double)),
-                          NULL,
-                          NULL};
+    *patch = (lengthwise){.surface = surface,
+                          .sign = sign,
+                          .slack = slack,
+                          .along = along,
+                          .first = range[0],
+                          .last = range[nurbs_surface_size(surface, along)],
+                          .n = order * spans + 2,
+                          .t = malloc(4 * (order * spans + 2) * sizeof(double))};
     if (!patch->t)
         return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu quadrature points", patch->n);
     patch->weight = patch->t + patch->n;
@@ -78,10 +82,11 @@ static nurbs_status lengthwise_create(const nurbs_surface *surface, lengthwise *
  * updated. Returns 0 when the line does not cross, else fills the point and derivatives. */
 static int find_crossing(const lengthwise *patch, size_t k, double x, double *guess, double out[9])
 {
-    double a = patch->first, b = patch->last;
-    if ((patch->ends[2 * k] - x) * (patch->ends[2 * k + 1] - x) > 0)
+    double a = patch->first, b = patch->last, from = patch->ends[2 * k] - patch->slack,
+           to = patch->ends[2 * k + 1] - patch->slack;
+    if ((from <= x) == (to <= x))
         return 0;
-    int rising = patch->ends[2 * k + 1] > patch->ends[2 * k];
+    int rising = to > from;
     double s = *guess > a && *guess < b ? *guess : 0.5 * (a + b);
     for (int step = 0; step < 80; step++) {
         if (evaluate(patch, s, patch->t[k], out) != NURBS_OK)
@@ -102,7 +107,7 @@ static int find_crossing(const lengthwise *patch, size_t k, double x, double *gu
     return 1;
 }
 
-/* Adds 2 y dz over one patch; the sign of the patch's direction is left to the caller. */
+/* The integral of 2 y dz over one patch, downwards with the body on the inner side. */
 static double patch_section(const lengthwise *patch, double x, double *low)
 {
     double area = 0, guess = patch->first, out[9];
@@ -111,20 +116,37 @@ static double patch_section(const lengthwise *patch, double x, double *low)
             continue;
         const double *ds = out + (patch->along ? 6 : 3), *dt = out + (patch->along ? 3 : 6);
         double slip = ds[0] != 0 ? -dt[0] / ds[0] : 0;
-        area += patch->weight[k] * 2 * out[1] * (dt[2] + ds[2] * slip);
+        double down = (ds[0] > 0) == patch->along ? 1 : -1;
+        area += down * patch->weight[k] * 2 * out[1] * (dt[2] + ds[2] * slip);
         *low = fmin(*low, out[2]);
     }
-    return fabs(area);
+    return patch->sign * area;
 }
 
-static nurbs_status create_all(size_t n, const nurbs_surface *const *patches, lengthwise **all)
+static double length_of(size_t n, const nurbs_surface *const *patches)
 {
+    double low = INFINITY, high = -INFINITY;
+    for (size_t k = 0; k < n; k++) {
+        const double *p = nurbs_surface_points(patches[k]);
+        size_t count = nurbs_surface_size(patches[k], 0) * nurbs_surface_size(patches[k], 1);
+        for (size_t i = 0; i < count; i++) {
+            low = fmin(low, p[3 * i]);
+            high = fmax(high, p[3 * i]);
+        }
+    }
+    return high - low;
+}
+
+static nurbs_status create_all(size_t n, const nurbs_surface *const *patches, const int *sign,
+                               lengthwise **all)
+{
+    double slack = 1e-9 * length_of(n, patches);
     *all = calloc(n, sizeof **all);
     if (!*all)
         return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu patches", n);
     nurbs_status status = NURBS_OK;
     for (size_t k = 0; k < n && status == NURBS_OK; k++)
-        status = lengthwise_create(patches[k], &(*all)[k]);
+        status = lengthwise_create(patches[k], sign[k], slack, &(*all)[k]);
     return status;
 }
 
@@ -144,24 +166,24 @@ static double sum_sections(size_t n, const lengthwise *all, double x, double *lo
     return area;
 }
 
-nurbs_status section_area(size_t n, const nurbs_surface *const *patches, double x, double *area,
-                          double *low)
+nurbs_status section_area(size_t n, const nurbs_surface *const *patches, const int *sign, double x,
+                          double *area, double *low)
 {
     lengthwise *all;
-    nurbs_status status = create_all(n, patches, &all);
+    nurbs_status status = create_all(n, patches, sign, &all);
     if (status == NURBS_OK)
         *area = sum_sections(n, all, x, low);
     free_all(n, all);
     return status;
 }
 
-nurbs_status section_area_largest(size_t n, const nurbs_surface *const *patches, double aft,
-                                  double fore, double *area, double *at)
+nurbs_status section_area_largest(size_t n, const nurbs_surface *const *patches, const int *sign,
+                                  double aft, double fore, double *area, double *at)
 {
     enum { SAMPLES = 16, STEPS = 24 };
     const double ratio = 0.61803398874989484820;
     lengthwise *all;
-    nurbs_status status = create_all(n, patches, &all);
+    nurbs_status status = create_all(n, patches, sign, &all);
     double low, step = (fore - aft) / SAMPLES;
     *area = 0;
     *at = aft;

@@ -175,6 +175,7 @@ static nurbs_status add_stretch(finder *f, size_t a, size_t b, size_t first, siz
     if (!(joint.length > 10 * f->tolerance))
         return NURBS_OK;
     memcpy(p + 6, edge->points + 3 * middle, 3 * sizeof *p);
+    memcpy(joint.at, p + 6, sizeof joint.at);
     status = nurbs_curve_closest(f->edge[b].curve, 3, p, u, NULL);
     if (status != NURBS_OK)
         return status;

@@ -6,8 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Whether all control points of edge e (u first, u last, v first, v last) lie at the level. */
-static int edge_at_level(const nurbs_surface *surface, int e, double level)
+int edge_at_level(const nurbs_surface *surface, int e, double level)
 {
     size_t nu = nurbs_surface_size(surface, 0), nv = nurbs_surface_size(surface, 1);
     const double *points = nurbs_surface_points(surface);

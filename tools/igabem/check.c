@@ -97,7 +97,8 @@ static int print_json(const struct hull_input *input, const igabem_hull_info *in
     json_object_set_new(json, "patches", json_integer((json_int_t)info->patches));
     json_object_set_new(json, "length", json_real(info->length));
     json_object_set_new(json, "surface_piercing", json_boolean(info->surface_piercing));
-    json_object_set_new(json, "transom", json_boolean(info->transom));
+    json_object_set_new(json, "transom", json_boolean(info->transom != IGABEM_TRANSOM_NONE));
+    json_object_set_new(json, "stern", json_string(hull_stern(info)));
     json_object_set_new(json, "nu_s", json_real(info->nu_s));
     json_object_set_new(json, "volume", json_real(info->hydrostatics.volume));
     json_object_set_new(json, "wetted_area", json_real(info->hydrostatics.wetted_area));
@@ -114,10 +115,10 @@ static int print_text(const struct hull_input *input, const igabem_hull_info *in
                       const igabem_options *options, const char *path)
 {
     printf("%s is usable: %s\n", path, input->note);
-    printf("%zu patch%s, %s%s, L %.6g m, V %.6g m^3, S %.6g m^2\n", info->patches,
+    printf("%zu patch%s, %s%s%s, L %.6g m, V %.6g m^3, S %.6g m^2\n", info->patches,
            info->patches == 1 ? "" : "es",
-           info->surface_piercing ? "surface-piercing" : "submerged",
-           info->transom ? ", open transom" : "", info->length, info->hydrostatics.volume,
+           info->surface_piercing ? "surface-piercing" : "submerged", info->transom ? ", " : "",
+           hull_stern(info), info->length, info->hydrostatics.volume,
            info->hydrostatics.wetted_area);
     if (info->surface_piercing)
         printf("nu_s %.4g: formulation %s, t_c %.4g, stem limit %.4g\n", info->nu_s,

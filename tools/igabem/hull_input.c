@@ -262,8 +262,19 @@ int hull_input_read(const struct hull_request *request, struct hull_input *input
     return code;
 }
 
+const char *hull_stern(const igabem_hull_info *info)
+{
+    return info->transom == IGABEM_TRANSOM_OPEN     ? "open transom"
+           : info->transom == IGABEM_TRANSOM_CLOSED ? "closed transom"
+                                                    : "";
+}
+
 const char *hull_warning(const igabem_hull_info *info)
 {
+    if (info->transom == IGABEM_TRANSOM_CLOSED)
+        return "closed transom: without viscosity the flow turns round its corner, C_w means "
+               "nothing; "
+               "leave its patch out for a transom that runs dry";
     if (info->nu_s > 0.35)
         return "full waterline entrance (nu_s > 0.35): no cut-off plateau is known for it, do not "
                "trust C_w";

@@ -115,7 +115,8 @@ static json_t *hull_json(const struct solve_run *run)
     json_object_set_new(json, "transom_area", real(h->transom_area));
     json_object_set_new(json, "nu_s", real(run->info.nu_s));
     json_object_set_new(json, "surface_piercing", json_boolean(run->info.surface_piercing));
-    json_object_set_new(json, "transom", json_boolean(run->info.transom));
+    json_object_set_new(json, "stern", json_string(hull_stern(&run->info)));
+    json_object_set_new(json, "transom", json_boolean(run->info.transom != IGABEM_TRANSOM_NONE));
     json_object_set_new(json, "patches", json_integer((json_int_t)run->info.patches));
     json_object_set_new(json, "simplify_bound", real(run->input->simplify_bound));
     return json;

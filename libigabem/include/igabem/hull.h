@@ -24,9 +24,13 @@ enum {
 };
 
 /** Creates a hull; copies the patches, turns their normals outwards, finds the edges on z = 0, y =
- * 0, collapsed edges and an open transom. Errors (IGABEM_ERROR_GEOMETRY, with patch and place): a
- * patch above z = 0 (clearance 1e-6 of the length), y < 0 on a symmetric half, a fold, a normal
- * that vanishes inside a patch. */
+ * 0, collapsed edges and the transom. Patches may have any orientation and knots of their own on
+ * either side of an edge, and one edge may meet several (a T junction); edges within 1e-4 of the
+ * length of each other run together. Without IGABEM_SYMMETRIC no patch may cross the centre plane.
+ * Errors (IGABEM_ERROR_GEOMETRY, with patch and place): a patch above z = 0 (clearance 1e-6 of the
+ * length), y < 0 on a symmetric half, a fold, a normal that vanishes inside a patch, an edge that
+ * is open elsewhere than at the stern, patches that no orientation suits or that overlap (three at
+ * an edge, two at the waterline, no volume enclosed). */
 IGABEM_API igabem_status igabem_hull_create(const nurbs_surface *const *patches, size_t n,
                                             unsigned flags, igabem_hull **hull);
 IGABEM_API void igabem_hull_free(igabem_hull *hull);
@@ -35,12 +39,19 @@ IGABEM_API void igabem_hull_free(igabem_hull *hull);
  * length when submerged. */
 IGABEM_API igabem_status igabem_hull_set_length(igabem_hull *hull, double length);
 
+/** How an immersed stern ends. */
+typedef enum igabem_transom {
+    IGABEM_TRANSOM_NONE,
+    IGABEM_TRANSOM_OPEN,  /**< a free edge at the stern: no face there */
+    IGABEM_TRANSOM_CLOSED /**< by a flat face of its own (nurbs_transom_patches()) */
+} igabem_transom;
+
 /** What is known of the hull before any solve. */
 typedef struct igabem_hull_info {
     double length;                   /**< reference length, m */
     nurbs_hydrostatics hydrostatics; /**< at z = 0 */
     int surface_piercing;            /**< has an edge on z = 0 */
-    int transom;                     /**< has an open immersed stern end */
+    int transom;                     /**< igabem_transom */
     double nu_s; /**< largest |x component| of the waterline normal outside stem arcs */
     size_t patches;
 } igabem_hull_info;

@@ -66,17 +66,19 @@ typedef struct igabem_options {
     igabem_formulation formulation; /**< IGABEM_AUTOMATIC */
 
     int refine;     /**< each knot span split in this many, >= 1; 1 (l of the paper's eq. 14) */
-    int refine_v;   /**< the same for direction v of the patches (u along the hull, v around it, as
-                       the primitives have it); 0: like refine */
-    int elements_u; /**< > 0: the density has its own uniform knots with this many spans along u
-                       (times refine), whatever the knots of the hull; 0: those of the hull; -1
-                       (default): own knots, as many as the hull has, when one patch makes the hull
-                       and its spans differ by more than a factor of 3, as after knot removal; else
-                       0 */
-    int elements_v; /**< the same along v; -1 */
+    int refine_v;   /**< the same around the hull, refine then being along it: the direction of a
+                       patch that gains more in x is along; 0: like refine */
+    int elements_u; /**< > 0: the density has its own uniform knots with this many spans along the
+                       hull (times refine), whatever the knots of the hull; several patches share
+                       them by their length, each at least 1, and one that lies across the hull (a
+                       transom) takes spans as wide as those around; 0: the hull's own knots; -1
+                       (default): own knots, as many as the hull has, when the spans of a patch
+                       differ by more than a factor of 3, as after knot removal; else 0 */
+    int elements_v; /**< the same around the half girth; -1 */
     double waterline_span; /**< own knots keep spans along a waterline at least this wide, as a
-                              share of the range of the parameter, and are graded away from it when
-                              they would be narrower; 0: always uniform; 0.1 */
+                              share of the girth (of the range of the parameter on one patch), and
+                              are graded away from it when they would be narrower; 0: always
+                              uniform; 0.1 */
     int degree;            /**< least degree of the density; 3: lower geometry is elevated */
 
     int line_term;        /**< Brard's waterline integral on (1) or off (0); 1 */

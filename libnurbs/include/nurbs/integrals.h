@@ -26,14 +26,23 @@ typedef struct nurbs_hydrostatics {
     double draft;             /**< depth of the deepest point below the level, m */
     double keel_draft;        /**< depth of the keel amidships (x halfway along the waterline), m */
     double x_aft, x_fore;     /**< ends of the waterline, m (of the body when submerged) */
-    double transom_area; /**< m^2, both sides: immersed area of an open stern end, 0 if closed */
+    double transom_area; /**< m^2, both sides: immersed area of an open stern end, or of the patches
+                            that close it (nurbs_transom_patches()); 0 without either */
     double section_area_max, section_area_max_x; /**< m^2, both sides, and where */
     double error; /**< relative, estimated from a second quadrature order */
 } nurbs_hydrostatics;
 
-/** Wetted patches as made by nurbs_surface_wetted, or a submerged body (level above it). */
+/** Wetted patches as made by nurbs_surface_wetted, or a submerged body (level above it). Patches
+ * may have any orientation: those whose edges run together, within 1e-4 of the length, are turned
+ * alike. Error: NURBS_ERROR_GEOMETRY if they cannot be, or enclose no volume. */
 NURBS_API nurbs_status nurbs_hydrostatics_compute(size_t n, const nurbs_surface *const *wetted,
                                                   double level, nurbs_hydrostatics *result);
+
+/** Which of several patches close the stern: flat, facing along x, within 5 % of the length of the
+ * aft end, and with an edge at the level. Their area is the immersed transom's and no part of the
+ * wetted area. Fills closes[n] with 1 or 0. */
+NURBS_API nurbs_status nurbs_transom_patches(size_t n, const nurbs_surface *const *wetted,
+                                             double level, int *closes);
 
 /** Area of one surface, m^2, relative error estimate in *error (NULL allowed). */
 NURBS_API nurbs_status nurbs_surface_area(const nurbs_surface *surface, double *area,

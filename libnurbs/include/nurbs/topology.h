@@ -26,6 +26,7 @@ typedef struct nurbs_joint {
     size_t edge[2];
     double from[2], to[2]; /**< parameters of either edge at the two ends of the stretch */
     double length;         /**< m, along edge[0] */
+    double at[3];          /**< a point halfway along it */
     double gap;     /**< largest distance of edge[0] from edge[1] on it, m, on 32 samples a span */
     int consistent; /**< the normals on both sides are on the same side of the body */
 } nurbs_joint;
@@ -45,6 +46,14 @@ NURBS_API nurbs_status nurbs_patches_topology(const nurbs_patches *patches, doub
                                               nurbs_topology *topology);
 /** Frees the arrays; the struct itself is the caller's. */
 NURBS_API void nurbs_topology_free(nurbs_topology *topology);
+
+/** Makes the orientation of joined patches one: fills sign[edges/4] (-1: to be turned; the first
+ * patch of each connected part keeps its own) and part[edges/4], the number of the connected part
+ * that holds a patch, from 0 to *parts - 1. Joints that take less than 2 % of either edge do not
+ * count: edges that part at a small angle from a common corner.
+ * Error: NURBS_ERROR_GEOMETRY if that is impossible (a Moebius strip), naming patches and place. */
+NURBS_API nurbs_status nurbs_topology_orient(const nurbs_topology *topology, int *sign,
+                                             size_t *part, size_t *parts);
 
 /** Creates the same patches with one orientation for all that are joined: outwards, so that the
  * volume of each connected part (nurbs_moments) is positive. A patch is turned by reversing u.
