@@ -55,9 +55,13 @@ static void preconditioned(const struct gmres *gmres, const double *x, double *y
         memcpy(y, x, gmres->n * sizeof *y);
 }
 
-/* Fills r = right - A x and returns its length. */
+/* Fills r = right - A x and returns its length; x = 0 costs no product. */
 static double residual(const struct gmres *gmres, const double *right, const double *x, double *r)
 {
+    if (norm(gmres->n, x) == 0.0) {
+        memcpy(r, right, gmres->n * sizeof *r);
+        return norm(gmres->n, r);
+    }
     gmres->matrix(gmres->data, x, r);
     for (size_t i = 0; i < gmres->n; i++)
         r[i] = right[i] - r[i];

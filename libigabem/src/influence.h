@@ -7,6 +7,7 @@
 #define INFLUENCE_H
 
 #include "line.h"
+#include "wave_change.h"
 
 enum { REGULAR_CLASSES = 4, REGULAR_MOST = 6 + ELEMENT_SIDE / 2 };
 
@@ -66,10 +67,10 @@ igabem_status influence_local_line(const struct influence *influence, const stru
                                    double k0, const double *weight, double *rows);
 
 /* Adds the wave part of surface sources and, unless line is NULL, of waterline sources, with the
- * filter of cutoff[0] (INFINITY: none). What each further filter changes in the component along
- * the normal of the point is added to change[filters - 1][n][n]. */
+ * filter of cutoff[0] (INFINITY: none). Creates the operator of what the further filters, two at
+ * most, change in the component along the normal of the point (filters 1: NULL). */
 igabem_status influence_wave(const struct influence *influence, const struct line *line, double k0,
                              size_t filters, const double *cutoff, const double *weight,
-                             double *rows, double *change);
+                             double *rows, struct wave_change **change);
 
 #endif

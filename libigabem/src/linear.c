@@ -10,7 +10,7 @@
 #include <string.h>
 
 enum { RESTART = 60, MOST = 300, ESTIMATES = 10 };
-static const double TOLERANCE = 1e-12, ROUGH = 1e-4;
+static const double TOLERANCE = 1e-12, ROUGH = 1e-3;
 /* Half width of the band per square root of the unknowns: a few columns of a mesh. */
 static const double BAND = 2.0;
 
@@ -86,7 +86,7 @@ static void add(size_t n, double factor, const double *a, double *b)
 /* What GMRES is handed: which matrix, and whether transposed. */
 struct view {
     const struct iteration *iteration;
-    const double *change;
+    const struct addend *addend;
     char transposed;
 };
 
@@ -96,11 +96,10 @@ static void multiply(const void *data, const double *x, double *y)
     const struct matrix *matrix = &view->iteration->matrix;
     size_t n = matrix->n;
 #pragma omp parallel for num_threads(matrix->threads) schedule(static)
-    for (size_t i = 0; i < n; i++) {
+    for (size_t i = 0; i < n; i++)
         y[i] = dot(n, matrix->rows + i * matrix->stride, x);
-        if (view->change)
-            y[i] += dot(n, view->change + i * n, x);
-    }
+    if (view->addend)
+        view->addend->add(view->addend->data, x, y);
 }
 
 static void multiply_transposed(const void *data, const double *x, double *y)
@@ -240,10 +239,10 @@ static igabem_status run(const struct view *view, double tolerance, const double
     return gmres_solve(&gmres, right, x, result);
 }
 
-igabem_status iteration_solve(const struct iteration *iteration, const double *change,
+igabem_status iteration_solve(const struct iteration *iteration, const struct addend *addend,
                               const double *right, double *x, struct gmres_result *result)
 {
-    const struct view view = {iteration, change, 0};
+    const struct view view = {iteration, addend, 0};
     return run(&view, TOLERANCE, right, x, result);
 }
 

@@ -23,8 +23,14 @@ igabem_status iteration_create(const struct matrix *matrix, const double *point,
                                struct iteration **iteration);
 void iteration_free(struct iteration *iteration);
 
-/* Solves (matrix + change) x = right from the x given; change: [n][n], NULL: none. */
-igabem_status iteration_solve(const struct iteration *iteration, const double *change,
+/* A second matrix: y += A x. */
+struct addend {
+    gmres_product add;
+    const void *data;
+};
+
+/* Solves (matrix + addend) x = right from the x given; NULL: no addend. */
+igabem_status iteration_solve(const struct iteration *iteration, const struct addend *addend,
                               const double *right, double *x, struct gmres_result *result);
 
 /* Estimates the condition number in the 1-norm (Higham, ACM Trans. Math. Softw. 14, 1988). */

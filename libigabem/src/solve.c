@@ -157,11 +157,11 @@ static void add_weighted(const struct influence *influence, const double *weight
             to[k] += weight[i] * from[k];
 }
 
-/* Adds waterline and waves of one setting to rows, and to change[filters - 1][n][n] what the
- * filters beyond the first change in the matrix. */
+/* Adds waterline and waves of one setting to rows; creates the operator of what the filters beyond
+ * the first change in the matrix. */
 static igabem_status wave_influence(const struct influence *influence,
                                     const igabem_solution *solution, const double *weight,
-                                    size_t filters, double *rows, double *change)
+                                    size_t filters, double *rows, struct wave_change **change)
 {
     const igabem_options *options = &solution->options;
     double cutoff[3];
@@ -185,7 +185,7 @@ static igabem_status weighted_rows(struct shared *shared, double fraction,
                                    const struct influence *influence,
                                    const igabem_solution *solution, const struct parts *parts,
                                    const struct weights *weights, size_t filters, double *rows,
-                                   double *change)
+                                   struct wave_change **change)
 {
     size_t n = influence->density->n;
     const double *image = needs_image(&solution->options) ? weights->image : NULL;
@@ -212,29 +212,48 @@ static igabem_status weighted_rows(struct shared *shared, double fraction,
 
 /* The densities of all filters by LU, which replaces the matrices by their factors. */
 static igabem_status solve_directly(const struct matrix *matrix, igabem_solution *solution,
-                                    size_t filters, double *change, double *const *sigma)
+                                    size_t filters, const struct wave_change *change,
+                                    double *const *sigma)
 {
     size_t n = matrix->n;
     igabem_status status = IGABEM_OK;
+    double *sum = filters > 1 ? malloc(n * n * sizeof *sum) : NULL;
+    if (filters > 1 && !sum)
+        return no_memory(n);
+    solution->memory += sum ? (double)(n * n * sizeof *sum) : 0.0;
     for (size_t f = filters; f-- > 0 && status == IGABEM_OK;) {
-        struct matrix system = *matrix;
+        const struct matrix changed = {n, n, sum, matrix->threads};
         if (f > 0) {
-            system = (struct matrix){n, n, change + (f - 1) * n * n, matrix->threads};
+            wave_change_expand(change, f - 1, sum);
             for (size_t i = 0; i < n; i++)
                 for (size_t k = 0; k < n; k++)
-                    system.rows[i * n + k] += matrix->rows[i * matrix->stride + k];
+                    sum[i * n + k] += matrix->rows[i * matrix->stride + k];
         }
         normal_flow(solution, sigma[f]);
-        status = linear_lu(&system, sigma[f], f == 0 ? &solution->condition : NULL);
+        status =
+            linear_lu(f > 0 ? &changed : matrix, sigma[f], f == 0 ? &solution->condition : NULL);
     }
+    free(sum);
     solution->options.solver = IGABEM_SOLVER_LU;
     return status;
+}
+
+struct filter_change {
+    const struct wave_change *change;
+    size_t filter;
+};
+
+static void add_change(const void *data, const double *x, double *y)
+{
+    const struct filter_change *change = data;
+    wave_change_add(change->change, change->filter, x, y);
 }
 
 /* The same by GMRES, which leaves the matrices as they are; a filter starts from the density of the
  * first. */
 static igabem_status solve_iteratively(const struct matrix *matrix, igabem_solution *solution,
-                                       size_t filters, const double *change, double *const *sigma)
+                                       size_t filters, const struct wave_change *change,
+                                       double *const *sigma)
 {
     size_t n = matrix->n;
     struct iteration *iteration = NULL;
@@ -245,20 +264,20 @@ static igabem_status solve_iteratively(const struct matrix *matrix, igabem_solut
     if (status == IGABEM_OK) {
         normal_flow(solution, right);
         memset(sigma[0], 0, n * sizeof *right);
+        solution->memory += iteration_memory(iteration);
     }
     for (size_t f = 0; f < filters && status == IGABEM_OK; f++) {
+        const struct filter_change filter = {change, f - 1};
+        const struct addend addend = {add_change, &filter};
         struct gmres_result result;
         if (f > 0)
             memcpy(sigma[f], sigma[0], n * sizeof *right);
-        status = iteration_solve(iteration, f > 0 ? change + (f - 1) * n * n : NULL, right,
-                                 sigma[f], &result);
+        status = iteration_solve(iteration, f > 0 ? &addend : NULL, right, sigma[f], &result);
         solution->iterations = f == 0 ? result.iterations : solution->iterations;
         solution->residual = f == 0 ? result.residual : fmax(solution->residual, result.residual);
     }
     if (status == IGABEM_OK)
         status = iteration_condition(iteration, &solution->condition);
-    if (iteration)
-        solution->memory += iteration_memory(iteration);
     iteration_free(iteration);
     free(right);
     solution->options.solver = IGABEM_SOLVER_GMRES;
@@ -267,7 +286,7 @@ static igabem_status solve_iteratively(const struct matrix *matrix, igabem_solut
 
 /* By the solver asked for; automatic choice turns to LU where GMRES fails. */
 static igabem_status solve_filters(const struct matrix *matrix, igabem_solution *solution,
-                                   size_t filters, double *change)
+                                   size_t filters, const struct wave_change *change)
 {
     size_t n = matrix->n;
     igabem_solver wanted = solution->options.solver;
@@ -292,7 +311,7 @@ static igabem_status solve_filters(const struct matrix *matrix, igabem_solution 
 }
 
 static igabem_status solve_rows(const struct influence *influence, igabem_solution *solution,
-                                size_t filters, double *rows, double *change)
+                                size_t filters, double *rows, const struct wave_change *change)
 {
     size_t n = influence->density->n;
     const struct matrix matrix = {n, 3 * n, rows, influence->threads};
@@ -325,15 +344,15 @@ static igabem_status finish_solution(struct shared *shared, double fraction,
     }
     int several = needs_waves(options) && options->sensitivity && isfinite(options->cutoff_angle);
     size_t filters = several ? 3 : 1;
-    size_t arrays = 2 + filters; /* n^2 doubles each */
+    size_t arrays = 3; /* n^2 doubles each */
     arrays += 3 * ((size_t) !!parts->rankine + (size_t) !!parts->image + (size_t) !!parts->local);
     solution->memory = (double)(arrays * n * n * sizeof(double));
     double *rows = calloc(3 * n * n, sizeof *rows);
-    double *change = several ? calloc((filters - 1) * n * n, sizeof *change) : NULL;
+    struct wave_change *change = NULL;
     double *weight = malloc(2 * n * sizeof *weight);
     const struct weights weights = {weight, weight + n};
     igabem_status status = IGABEM_OK;
-    if (!rows || !weight || (several && !change)) {
+    if (!rows || !weight) {
         status = no_memory(n);
         goto done;
     }
@@ -343,13 +362,15 @@ static igabem_status finish_solution(struct shared *shared, double fraction,
         weights.image[i] = 2.0 * share - 1.0;
     }
     status = weighted_rows(shared, fraction, influence, solution, parts, &weights, filters, rows,
-                           change);
+                           &change);
+    if (change)
+        solution->memory += wave_change_memory(change);
     if (status == IGABEM_OK)
         status = solve_rows(influence, solution, filters, rows, change);
 done:
     free(weight);
     free(rows);
-    free(change);
+    wave_change_free(change);
     return status;
 }
 

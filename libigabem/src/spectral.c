@@ -15,6 +15,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Sources this share of the hull's length behind a point still count as ahead of it. */
+static const double SLACK = 1e-9;
+
 /* A panel or a segment of the waterline. */
 struct source {
     const struct element *element; /* one of the panel's: they share their functions */
@@ -42,6 +45,7 @@ struct wave {
     size_t *point; /* wanted rows, by decreasing x */
     size_t points;
     double *storage;
+    struct wave_change *change; /* NULL with one filter */
 };
 
 /* e^{k0 s^2 z} cos(a - x0 phase) ... of one node for all angles: re, im (= -sin) times the cosine
@@ -112,6 +116,7 @@ struct wave_work {
     double *buffer; /* one node's waves, or one point's factors */
     double *f;      /* folded basis, or kernels at nodes */
     size_t f_capacity;
+    double *nearby; /* [filters - 1][n] what further filters change, cleared after use */
 };
 
 static int reserve(struct wave_work *work, size_t n)
@@ -178,7 +183,8 @@ static size_t factor_rows(const struct wave *wave)
     return wave->filters + 2;
 }
 
-/* Factors of a point: for every row (see above) and set the multipliers of re and im, so that the
+/* Factors of a point: for every row (see above), a last one along the normal without filter, and
+ * every set the multipliers of re and im, so that the
  * velocity is the sum over angles of factor times moment. The order is [row][width]. */
 static size_t point_factors(const struct wave *wave, size_t point, double *factor)
 {
@@ -209,21 +215,17 @@ static size_t point_factors(const struct wave *wave, size_t point, double *facto
                 row[(2 + f) * width] = wave->filter[f * n + j] * along_re;
                 row[(2 + f) * width + n] = wave->filter[f * n + j] * along_im;
             }
+            row[(2 + wave->filters) * width] = along_re;
+            row[(2 + wave->filters) * width + n] = along_im;
         }
     }
     return angles;
 }
 
-/* Where the rows of a point go: three components, and the change by each further filter. */
-struct target {
-    double *rows, *change;
-    size_t change_stride;
-};
-
 /* Adds factor . state_k to the rows of unknown k. */
 WAVE_MULTIVERSION
 static void product(const struct wave *wave, const double *factor, size_t angles,
-                    const double *state, size_t first, size_t last, const struct target *target)
+                    const double *state, size_t first, size_t last, double *rows)
 {
     size_t n = wave->spectrum->n, width = wave->width, stride = wave->influence->density->n;
     for (size_t k = first; k < last; k++) {
@@ -249,20 +251,21 @@ static void product(const struct wave *wave, const double *factor, size_t angles
                 w += sw[l];
             }
         }
-        target->rows[k] += u;
-        target->rows[stride + k] += v;
-        target->rows[2 * stride + k] += w;
+        rows[k] += u;
+        rows[stride + k] += v;
+        rows[2 * stride + k] += w;
     }
 }
 
-/* The products of one further filter. */
+/* The products of a further filter with the unknowns that are not wholly ahead. */
 WAVE_MULTIVERSION
-static void product_of_change(const struct wave *wave, const double *factor, size_t angles,
-                              const double *state, size_t first, size_t last, double *change)
+static void product_nearby(const struct wave *wave, const double *factor, size_t angles,
+                           const double *state, size_t first, size_t last, size_t ahead,
+                           double *nearby)
 {
     size_t n = wave->spectrum->n, width = wave->width;
     for (size_t k = first; k < last; k++)
-        for (size_t set = 0; set < 2 * wave->sets; set++) {
+        for (size_t set = 0; set < 2 * wave->sets && wave->change->rank[k] >= ahead; set++) {
             const double *from = state + k * width + set * n, *a = factor + set * n;
             double sum[8] = {0};
             size_t j = 0;
@@ -272,7 +275,7 @@ static void product_of_change(const struct wave *wave, const double *factor, siz
             for (; j < angles; j++)
                 sum[0] += a[j] * from[j];
             for (size_t l = 0; l < 8; l++)
-                change[k] += sum[l];
+                nearby[k] += sum[l];
         }
 }
 
@@ -306,8 +309,7 @@ static void direct_sum(const struct wave *wave, const double *factor, size_t poi
 }
 
 static igabem_status straddling(const struct wave *wave, size_t point, const double *factor,
-                                size_t angles, double slack, struct wave_work *work,
-                                const struct target *target)
+                                size_t angles, double slack, struct wave_work *work, double *rows)
 {
     const struct density *density = wave->influence->density;
     const double *p = density->point + 3 * point;
@@ -325,10 +327,10 @@ static igabem_status straddling(const struct wave *wave, size_t point, const dou
     if (work->nodes.failed || !reserve(work, factor_rows(wave) * n))
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for wave sums");
     direct_sum(wave, factor, angles, -p[2], &work->nodes, work->buffer, work->f);
-    nodes_scatter(&work->nodes, 3, work->f, n, target->rows, density->n);
-    if (wave->filters > 1)
-        nodes_scatter(&work->nodes, wave->filters - 1, work->f + 3 * n, n, target->change,
-                      target->change_stride);
+    nodes_scatter(&work->nodes, 3, work->f, n, rows, density->n);
+    if (wave->change)
+        nodes_scatter(&work->nodes, wave->filters - 1, work->f + 3 * n, n, work->nearby,
+                      density->n);
     return IGABEM_OK;
 }
 
@@ -349,14 +351,27 @@ static void add_moments(const struct wave *wave, const struct source *source, do
     range[1] = last > range[1] ? last : range[1];
 }
 
+/* Row `index` of the operator of the further filters. */
+static igabem_status record_change(const struct wave *wave, size_t index, size_t angles,
+                                   const double *factor, double *nearby)
+{
+    size_t n = wave->spectrum->n;
+    const double *from = factor + (2 + wave->filters) * wave->width;
+    double *to = wave->change->factor + index * wave->width;
+    for (size_t set = 0; set < 2 * wave->sets; set++)
+        memcpy(to + set * n, from + set * n, angles * sizeof *to);
+    if (wave_change_collect(wave->change, index, nearby))
+        return IGABEM_OK;
+    return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for a wave operator");
+}
+
 /* Rows of a block of consecutive points (in order of decreasing x). */
 static igabem_status block_rows(const struct wave *wave, size_t begin, size_t end,
-                                struct wave_work *work, double *state, double *factor, double *rows,
-                                double *change)
+                                struct wave_work *work, double *state, double *factor, double *rows)
 {
     const struct density *density = wave->influence->density;
     size_t next = 0, n = density->n, range[2] = {n, 0};
-    double slack = 1e-9 * wave->extent;
+    double slack = SLACK * wave->extent;
     memset(state, 0, n * wave->width * sizeof *state);
     for (size_t i = begin; i < end; i++) {
         size_t point = wave->point[i];
@@ -364,14 +379,15 @@ static igabem_status block_rows(const struct wave *wave, size_t begin, size_t en
         while (next < wave->sources && wave->source[next].box[0] >= p[0] - slack)
             add_moments(wave, &wave->source[next++], state, range);
         size_t angles = point_factors(wave, point, factor);
-        const struct target target = {rows + 3 * n * point, change ? change + n * point : NULL,
-                                      n * n};
+        double *out = rows + 3 * n * point;
         if (range[0] < range[1])
-            product(wave, factor, angles, state, range[0], range[1], &target);
+            product(wave, factor, angles, state, range[0], range[1], out);
         for (size_t f = 1; f < wave->filters && range[0] < range[1]; f++)
-            product_of_change(wave, factor + (2 + f) * wave->width, angles, state, range[0],
-                              range[1], target.change + (f - 1) * n * n);
-        igabem_status status = straddling(wave, point, factor, angles, slack, work, &target);
+            product_nearby(wave, factor + (2 + f) * wave->width, angles, state, range[0], range[1],
+                           wave->change->row[i].ahead, work->nearby + (f - 1) * n);
+        igabem_status status = straddling(wave, point, factor, angles, slack, work, out);
+        if (status == IGABEM_OK && wave->change)
+            status = record_change(wave, i, angles, factor, work->nearby);
         if (status != IGABEM_OK)
             return status;
     }
@@ -491,7 +507,57 @@ static igabem_status make_spectrum(struct wave *wave)
     return IGABEM_OK;
 }
 
-static igabem_status march(const struct wave *wave, int threads, double *rows, double *change)
+static size_t unknown_of(const struct element *element, size_t function)
+{
+    size_t side = (size_t)element->degree[1] + 1;
+    return element->first + function / side * element->stride + function % side;
+}
+
+/* The unknowns in the order in which the march passes the last of their sources, and how many it
+ * has passed when it comes to each point. */
+static igabem_status order_unknowns(const struct wave *wave)
+{
+    struct wave_change *change = wave->change;
+    size_t *waiting = calloc(change->n, sizeof *waiting), next = 0, passed = 0;
+    if (!waiting)
+        return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for a wave operator");
+    for (size_t i = 0; i < wave->sources; i++)
+        for (size_t f = 0; f < functions(wave->source[i].element); f++)
+            waiting[unknown_of(wave->source[i].element, f)]++;
+    for (size_t k = 0; k < change->n; k++)
+        change->rank[k] = change->n;
+    for (size_t i = 0; i < wave->points; i++) {
+        double x = wave->influence->density->point[3 * wave->point[i]] - SLACK * wave->extent;
+        for (; next < wave->sources && wave->source[next].box[0] >= x; next++)
+            for (size_t f = 0; f < functions(wave->source[next].element); f++) {
+                size_t k = unknown_of(wave->source[next].element, f);
+                if (--waiting[k] == 0) {
+                    change->order[passed] = k;
+                    change->rank[k] = passed++;
+                }
+            }
+        change->row[i] = (struct wave_change_row){.point = wave->point[i], .ahead = passed};
+    }
+    free(waiting);
+    return IGABEM_OK;
+}
+
+static igabem_status make_change(struct wave *wave)
+{
+    size_t n = wave->spectrum->n;
+    igabem_status status =
+        wave_change_create(wave->influence->density->n, wave->points, wave->width,
+                           wave->filters - 1, wave->influence->threads, &wave->change);
+    if (status != IGABEM_OK)
+        return status;
+    for (size_t f = 1; f < wave->filters; f++)
+        for (size_t set = 0; set < 2 * wave->sets; set++)
+            memcpy(wave->change->filter + (f - 1) * wave->width + set * n, wave->filter + f * n,
+                   n * sizeof(double));
+    return order_unknowns(wave);
+}
+
+static igabem_status march(const struct wave *wave, int threads, double *rows)
 {
     const struct density *density = wave->influence->density;
     size_t blocks = 4 * (size_t)threads;
@@ -502,26 +568,32 @@ static igabem_status march(const struct wave *wave, int threads, double *rows, d
         nodes_init(&work.nodes, wave->influence->mesh);
         work.buffer = malloc(wave->width * sizeof *work.buffer);
         double *state = malloc(density->n * wave->width * sizeof *state);
-        double *factor = malloc(factor_rows(wave) * wave->width * sizeof *factor);
+        double *factor = malloc((factor_rows(wave) + 1) * wave->width * sizeof *factor);
+        work.nearby = calloc(density->n * wave->filters, sizeof *work.nearby);
         igabem_status status = IGABEM_OK;
-        if (!work.buffer || !state || !factor)
+        if (!work.buffer || !work.nearby || !state || !factor)
             status = igabem_fail(IGABEM_ERROR_MEMORY, "no memory for wave sums");
 #pragma omp for schedule(dynamic, 8)
         for (size_t i = 0; i < wave->sources; i++)
             if (status == IGABEM_OK)
                 status = source_moments(wave, &wave->source[i], &work);
+#pragma omp single
+        for (size_t i = 0; i < wave->sources && wave->change; i++) {
+            size_t range[2] = {0, 0};
+            add_moments(wave, &wave->source[i], wave->change->moments, range);
+        }
 #pragma omp for schedule(dynamic, 1)
         for (size_t b = 0; b < blocks; b++)
             if (status == IGABEM_OK)
-                status =
-                    block_rows(wave, wave->points * b / blocks, wave->points * (b + 1) / blocks,
-                               &work, state, factor, rows, change);
+                status = block_rows(wave, wave->points * b / blocks,
+                                    wave->points * (b + 1) / blocks, &work, state, factor, rows);
 #pragma omp critical
         if (status != IGABEM_OK)
             result = status;
         nodes_free(&work.nodes);
         free(work.buffer);
         free(work.f);
+        free(work.nearby);
         free(state);
         free(factor);
     }
@@ -530,7 +602,7 @@ static igabem_status march(const struct wave *wave, int threads, double *rows, d
 
 igabem_status influence_wave(const struct influence *influence, const struct line *line, double k0,
                              size_t filters, const double *cutoff, const double *weight,
-                             double *rows, double *change)
+                             double *rows, struct wave_change **change)
 {
     struct wave wave = {.influence = influence,
                         .line = line && line->n ? line : NULL,
@@ -545,12 +617,20 @@ igabem_status influence_wave(const struct influence *influence, const struct lin
         status = make_sources(&wave);
     if (status == IGABEM_OK)
         status = sort_points(&wave);
+    if (status == IGABEM_OK && filters > 1)
+        status = make_change(&wave);
     if (status == IGABEM_OK)
-        status = march(&wave, influence->threads, rows, change);
+        status = march(&wave, influence->threads, rows);
     spectrum_free(wave.spectrum);
     free(wave.filter);
     free(wave.source);
     free(wave.storage);
     free(wave.point);
+    if (status != IGABEM_OK) {
+        wave_change_free(wave.change);
+        wave.change = NULL;
+    }
+    if (change)
+        *change = wave.change;
     return status;
 }

@@ -196,6 +196,58 @@ static void test_waterline(void)
     close_problem(&p);
 }
 
+/* The operator of further filters, by marching and expanded, against rows of each filter alone. */
+static void test_filter_change(void)
+{
+    struct problem p;
+    const double k0 = 11.0, cutoff[3] = {5.0, 4.25, 5.75};
+    open_problem(&p, wigley_hull(0.1, 0.0625, 1, 1), 9, 3, 1e-8);
+    size_t n = p.density->n, size = 3 * n * n;
+    double *rows = calloc(2 * size, sizeof *rows), *first = rows + size;
+    double *matrix = malloc(n * n * sizeof *matrix);
+    double *weight = malloc(2 * n * sizeof *weight), *marched = weight + n;
+    CU_ASSERT_FATAL(rows && matrix && weight);
+    for (size_t i = 0; i < n; i++)
+        weight[i] = i % 7 == 0 ? 0.0 : i % 2 ? 1.0 : 0.4;
+    struct line *line = NULL;
+    struct wave_change *change = NULL;
+    CU_ASSERT_EQUAL_FATAL(line_create(p.density, p.mesh, 0.4, &line), IGABEM_OK);
+    CU_ASSERT_EQUAL_FATAL(influence_wave(p.influence, line, k0, 3, cutoff, weight, first, &change),
+                          IGABEM_OK);
+    CU_ASSERT(wave_change_memory(change) > 0);
+    for (size_t f = 0; f < 2; f++) {
+        double largest = 0.0;
+        memset(rows, 0, size * sizeof *rows);
+        CU_ASSERT_EQUAL(
+            influence_wave(p.influence, line, k0, 1, &cutoff[f + 1], weight, rows, NULL),
+            IGABEM_OK);
+        wave_change_expand(change, f, matrix);
+        memset(marched, 0, n * sizeof *marched);
+        wave_change_add(change, f, p.sigma, marched);
+        for (size_t i = 0; i < n; i++) {
+            const double *normal = p.density->normal + 3 * i;
+            double a[3], b[3], expected = 0.0, expanded = 0.0;
+            apply(&p, first, i, a);
+            apply(&p, rows, i, b);
+            for (int c = 0; c < 3; c++)
+                expected += normal[c] * (b[c] - a[c]);
+            for (size_t k = 0; k < n; k++)
+                expanded += matrix[n * i + k] * p.sigma[k];
+            CHECK_CLOSE(marched[i], expected, 1e-6);
+            CHECK_CLOSE(expanded, marched[i], 1e-13);
+            CU_ASSERT(weight[i] != 0.0 || marched[i] == 0.0);
+            largest = fmax(largest, fabs(expected));
+        }
+        CU_ASSERT(largest > 1e-3);
+    }
+    wave_change_free(change);
+    line_free(line);
+    free(rows);
+    free(matrix);
+    free(weight);
+    close_problem(&p);
+}
+
 /* Rows that are not asked for stay as they were. */
 static void test_row_selection(void)
 {
@@ -224,6 +276,7 @@ static void test_row_selection(void)
 static const struct check_case cases[] = {
     {"submerged body: local and wave part", test_submerged},
     {"waterline: filtered waves and line term", test_waterline},
+    {"change by further filters", test_filter_change},
     {"row selection", test_row_selection},
 };
 

@@ -215,6 +215,19 @@ static void test_not_finite(void)
     CU_ASSERT_EQUAL(gmres_solve(&gmres, right, x, &result), IGABEM_ERROR_NUMERIC);
 }
 
+struct shift {
+    size_t n;
+    const double *rows;
+};
+
+static void add_shift(const void *data, const double *x, double *y)
+{
+    const struct shift *shift = data;
+    for (size_t i = 0; i < shift->n; i++)
+        for (size_t k = 0; k < shift->n; k++)
+            y[i] += shift->rows[i * shift->n + k] * x[k];
+}
+
 /* A large diagonal along which x decreases, neighbours that matter, far entries that do not. */
 static void fill_system(double *rows, size_t stride, double *point)
 {
@@ -247,6 +260,8 @@ static void test_systems(void)
         for (size_t k = 0; k < LARGE; k++)
             shift[i * LARGE + k] = 0.01 * uniform(&state);
     }
+    const struct shift data = {LARGE, shift};
+    const struct addend addend = {add_shift, &data};
     struct iteration *iteration;
     CU_ASSERT_EQUAL_FATAL(iteration_create(&matrix, point, &iteration), IGABEM_OK);
     CU_ASSERT(iteration_memory(iteration) > 0);
@@ -258,7 +273,8 @@ static void test_systems(void)
         memcpy(expected, right, sizeof expected);
         CU_ASSERT_EQUAL(linear_lu(&copy, expected, k ? NULL : &direct), IGABEM_OK);
         memset(x, 0, sizeof x);
-        CU_ASSERT_EQUAL(iteration_solve(iteration, k ? shift : NULL, right, x, &result), IGABEM_OK);
+        CU_ASSERT_EQUAL(iteration_solve(iteration, k ? &addend : NULL, right, x, &result),
+                        IGABEM_OK);
         CU_ASSERT(result.iterations > 2 && result.iterations < 60);
         for (size_t i = 0; i < LARGE; i++)
             CHECK_CLOSE(x[i], expected[i], 1e-9);
