@@ -121,6 +121,32 @@ static void cut_off(void)
     printf("\n");
 }
 
+/* The plateau as one figure for each Froude number. */
+static void cut_off_spread(void)
+{
+    enum { FACTORS = 5 };
+    static const double factor[FACTORS] = {0.75, 0.9, 1.05, 1.2, 1.5};
+    igabem_options options[SPEEDS * FACTORS];
+    igabem_forces forces[SPEEDS * FACTORS];
+    igabem_hull *hull = wigley(0.1, DRAFT, 32, 8);
+    for (int i = 0; i < SPEEDS * FACTORS; i++) {
+        options[i] = at_froude(speeds[i / FACTORS]);
+        options[i].cutoff_factor = factor[i % FACTORS];
+    }
+    solve_all(hull, SPEEDS * FACTORS, options, forces);
+    igabem_hull_free(hull);
+    printf("Largest over smallest C_w for t_c nu_s 0.75 to 1.5, B/L 0.10, 32 x 8 elements:");
+    for (int i = 0; i < SPEEDS; i++) {
+        double low = INFINITY, high = 0.0;
+        for (int k = 0; k < FACTORS; k++) {
+            low = fmin(low, forces[FACTORS * i + k].cw);
+            high = fmax(high, forces[FACTORS * i + k].cw);
+        }
+        printf("%s Fr %.2f %.1f %%", i ? "," : "", speeds[i], 100.0 * (high / low - 1.0));
+    }
+    printf(".\n\n");
+}
+
 static void thin_limit(void)
 {
     static const double beams[6] = {0.1, 0.05, 0.02, 0.01, 0.005, 0.0025};
@@ -187,6 +213,7 @@ void wigley_section(void)
     printf("## Wigley hull\n\n");
     convergence();
     cut_off();
+    cut_off_spread();
     thin_limit();
     froude_sweep();
 }
