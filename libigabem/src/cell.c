@@ -393,8 +393,7 @@ void domain_grid(const struct domain *domain, size_t na, const double *a, size_t
     }
 }
 
-void cell_extent(const struct domain *domain, const double rect[4], double centre[3],
-                 double half[2])
+void cell_extent(const struct domain *domain, const double rect[4], struct cell_extent *extent)
 {
     const double a[3] = {rect[0], 0.5 * (rect[0] + rect[1]), rect[1]};
     const double b[3] = {rect[2], 0.5 * (rect[2] + rect[3]), rect[3]};
@@ -402,17 +401,20 @@ void cell_extent(const struct domain *domain, const double rect[4], double centr
     domain_grid(domain, 3, a, 1, b + 1, row);
     domain_grid(domain, 1, a + 1, 1, b, column);
     domain_grid(domain, 1, a + 1, 1, b + 2, column + 1);
-    memcpy(centre, row[1], sizeof row[1]);
+    memcpy(extent->centre, row[1], sizeof row[1]);
     const double *end[2][2] = {{row[0], row[2]}, {column[0], column[1]}};
     for (int d = 0; d < 2; d++) {
-        double longest = 0.0;
-        for (int e = 0; e < 2; e++) {
-            double sum = 0.0;
-            for (int c = 0; c < 3; c++)
-                sum += (end[d][e][c] - centre[c]) * (end[d][e][c] - centre[c]);
-            longest = fmax(longest, sum);
+        double square[2] = {0.0, 0.0}, chord = 0.0, bend = 0.0;
+        for (int c = 0; c < 3; c++) {
+            double back = end[d][0][c] - row[1][c], front = end[d][1][c] - row[1][c];
+            square[0] += back * back;
+            square[1] += front * front;
+            chord += (front - back) * (front - back);
+            bend += (front + back) * (front + back);
         }
-        half[d] = sqrt(longest);
+        extent->half[d] = sqrt(fmax(square[0], square[1]));
+        extent->chord[d] = sqrt(chord);
+        extent->bend[d] = sqrt(bend);
     }
 }
 

@@ -79,9 +79,13 @@ void cell_nodes(const struct domain *domain, const double rect[4], const int n[2
 void point_node(const struct element *element, double s, double t, double weight,
                 struct nodes *nodes);
 
-/* Centre of a cell and its half lengths along a and b. */
-void cell_extent(const struct domain *domain, const double rect[4], double centre[3],
-                 double half[2]);
+/* Centre of a cell, and of its middle lines along a and b half the length, the chord and the second
+ * difference of ends and centre. */
+struct cell_extent {
+    double centre[3], half[2], chord[2], bend[2];
+};
+
+void cell_extent(const struct domain *domain, const double rect[4], struct cell_extent *extent);
 
 /* Strength of every node for a unit coefficient of each spline function of its element: fills
  * f[node][function], one row length for all, so the elements must have equal degrees. */

@@ -70,7 +70,8 @@ static igabem_status pressure_forces(const igabem_solution *solution, igabem_for
         return IGABEM_OK;
     struct sources *sources;
     struct pressure_sums sums;
-    igabem_status status = sources_create(solution, 0.0, 0.0, NULL, &sources);
+    const struct source_rule plain = {.k0 = 0.0};
+    igabem_status status = sources_create(solution, &plain, NULL, &sources);
     if (status)
         return status;
     integrate_pressure(solution, sources, &sums);

@@ -27,7 +27,9 @@ int regular_class(const struct influence *influence, size_t panel, const struct 
            dz = centre[2] - rule->point[2], distance = sqrt(dx * dx + dy * dy + dz * dz);
     double kernel = near_scale(rule, 1.0, distance), scale = kernel * 4.0 * half[0] * half[1];
     for (int d = 0; d < 2; d++) {
-        int points = regular_points(distance - half[1 - d], half[d], scale, rule->tolerance);
+        const struct factor factor = {element->degree[d], 1.0};
+        int points =
+            regular_points(distance - half[1 - d], half[d], &factor, scale, rule->tolerance);
         int least = least_points(element, d), k = class[d];
         const double *error = influence->shape_error[panel][d];
         while (k < REGULAR_CLASSES &&

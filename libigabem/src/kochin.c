@@ -32,7 +32,7 @@ igabem_status kochin_resistance(const igabem_solution *solution, struct kochin_r
     igabem_status status = IGABEM_OK;
     radiation_extent(solution, &length, &beam);
     for (size_t l = 0; l < sets && !status; l++) {
-        status = radiation_sources(solution, cutoff[l], limit, &sources[l]);
+        status = radiation_sources(solution, cutoff[l], limit, 0, NULL, &sources[l]);
         carriers[l] = sources[l];
     }
     if (!status)
@@ -68,7 +68,8 @@ igabem_status igabem_kochin(const igabem_solution *solution, size_t n, const dou
         largest = fmax(largest, fabs(t[i]));
     }
     struct sources *sources;
-    igabem_status status = radiation_sources(solution, RADIATION_AS_SOLVED, largest, &sources);
+    igabem_status status =
+        radiation_sources(solution, RADIATION_AS_SOLVED, largest, 0, NULL, &sources);
     if (status)
         return status;
     double scale = coefficient(solution);

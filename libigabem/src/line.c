@@ -111,8 +111,10 @@ static void divide(const struct line *line, const struct line_segment *segment,
     }
     double dx = middle.x - rule->point[0], dy = middle.y - rule->point[1],
            distance = sqrt(dx * dx + dy * dy + rule->point[2] * rule->point[2]);
-    int n = regular_points(distance, half, near_scale(rule, 2.0 * half / rule->k0, distance),
-                           rule->tolerance);
+    const struct factor factor = {segment->element->degree[1 - segment->fixed],
+                                  range[1] - range[0]};
+    int n = regular_points(distance, half, &factor,
+                           near_scale(rule, 2.0 * half / rule->k0, distance), rule->tolerance);
     if (depth == LINE_DEPTH || n <= LINE_POINTS) {
         n = n < LINE_LEAST ? LINE_LEAST : n > LINE_POINTS ? LINE_POINTS : n;
         line_nodes(line, segment, range, n, rule->gauss, nodes);

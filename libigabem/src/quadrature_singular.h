@@ -16,7 +16,8 @@
 #include "cell.h"
 
 /* Appends the nodes of the rule for the point at the local parameters (s, t), inside the element or
- * on its edge, `order` points along lambda and along each panel of mu. Fills correction[3]: to be
+ * on its edge, `order` points along lambda and along each panel of mu; their positions are relative
+ * to the point, free of the rounding error of a difference. Fills correction[3]: to be
  * multiplied by the Bernstein polynomials at (s, t) and added to the moments of the kernel. */
 void singular_nodes(const struct element *element, double s, double t, int order,
                     const struct gauss *gauss, struct nodes *nodes, double correction[3]);

@@ -22,12 +22,14 @@ static void slender_ship(struct sources *sources, double speed)
 }
 
 igabem_status radiation_sources(const igabem_solution *solution, enum radiation_cutoff cutoff,
-                                double t_max, struct sources **sources)
+                                double t_max, size_t cuts, const double *cut,
+                                struct sources **sources)
 {
     const double *sigma = cutoff == RADIATION_LOWER   ? solution->sigma_lower
                           : cutoff == RADIATION_UPPER ? solution->sigma_upper
                                                       : solution->sigma;
-    igabem_status status = sources_create(solution, solution->k0, t_max, sigma, sources);
+    const struct source_rule rule = {solution->k0, t_max, cuts, cut};
+    igabem_status status = sources_create(solution, &rule, sigma, sources);
     if (status)
         return status;
     if (solution->options.formulation == IGABEM_MICHELL)

@@ -44,6 +44,7 @@ static void kernel_batch(const double p[3], const struct reflection *reflection,
 
 struct rankine_work {
     struct nodes nodes;
+    struct nodes singular; /* relative to the point */
     double *k;
     size_t capacity;
 };
@@ -55,10 +56,9 @@ static void reflect(const double p[3], const struct reflection *reflection, doub
     out[2] = reflection->z * p[2];
 }
 
-static igabem_status flush(struct rankine_work *work, const double p[3],
+static igabem_status flush(struct rankine_work *work, struct nodes *nodes, const double p[3],
                            const struct reflection *reflection, double *rows, size_t stride)
 {
-    struct nodes *nodes = &work->nodes;
     if (!nodes->failed && 3 * nodes->n > work->capacity) {
         free(work->k);
         work->capacity = 3 * nodes->capacity;
@@ -154,7 +154,7 @@ static igabem_status near_rows(const struct influence *influence, size_t point,
             double local[2], correction[3];
             if (i == 0 && element_contains(density, element, point, local)) {
                 singular_nodes(element, local[0], local[1], singular_order(influence->tolerance),
-                               &influence->gauss, &work->nodes, correction);
+                               &influence->gauss, &work->singular, correction);
                 add_correction(element, local, correction, rows, density->n);
                 continue;
             }
@@ -163,7 +163,11 @@ static igabem_status near_rows(const struct influence *influence, size_t point,
             near_nodes(&rule, &domain, &work->nodes);
         }
     }
-    return flush(work, image[i], &reflections[i], rows, density->n);
+    static const double origin[3] = {0.0, 0.0, 0.0};
+    igabem_status status = flush(work, &work->nodes, image[i], &reflections[i], rows, density->n);
+    if (status == IGABEM_OK && i == 0)
+        status = flush(work, &work->singular, origin, &reflections[i], rows, density->n);
+    return status;
 }
 
 /* Whether an element of the panel contains the collocation point. */
@@ -210,6 +214,7 @@ igabem_status influence_rankine(const struct influence *influence, double *ranki
     {
         struct rankine_work work = {0};
         nodes_init(&work.nodes, influence->mesh);
+        nodes_init(&work.singular, influence->mesh);
         struct far_view *views = malloc(influence->mesh->panels * sizeof *views);
         double *buffer = malloc(3 * n * sizeof *buffer);
         igabem_status status = views && buffer
@@ -234,6 +239,7 @@ igabem_status influence_rankine(const struct influence *influence, double *ranki
         if (status != IGABEM_OK)
             result = status;
         nodes_free(&work.nodes);
+        nodes_free(&work.singular);
         free(work.k);
         free(views);
         free(buffer);

@@ -117,7 +117,7 @@ igabem_status igabem_wave_shares(const igabem_solution *solution, size_t n, cons
                                i, x[i]);
     struct sources *sources;
     double limit = radiation_limit(solution), length, beam;
-    igabem_status status = radiation_sources(solution, RADIATION_AS_SOLVED, limit, &sources);
+    igabem_status status = radiation_sources(solution, RADIATION_AS_SOLVED, limit, n, x, &sources);
     if (status)
         return status;
     radiation_extent(solution, &length, &beam);

@@ -155,34 +155,53 @@ static igabem_status fill_line(const igabem_solution *solution, const struct nod
     return IGABEM_OK;
 }
 
-static void surface_nodes(const struct mesh *mesh, const struct wave_rule *rule,
-                          struct nodes *nodes)
+/* The first of the planes that crosses the range of x, or NAN. */
+static double crossing(const struct source_rule *rule, double lower, double upper)
+{
+    for (size_t i = 0; i < rule->cuts; i++)
+        if (rule->cut[i] > lower && rule->cut[i] < upper)
+            return rule->cut[i];
+    return NAN;
+}
+
+static void surface_nodes(const struct mesh *mesh, const struct source_rule *wanted,
+                          const struct wave_rule *rule, struct nodes *nodes)
 {
     const double whole[4] = {0.0, 1.0, 0.0, 1.0};
     const int plain[2] = {PLAIN_POINTS, PLAIN_POINTS};
     for (size_t e = 0; e < mesh->n; e++) {
-        struct domain domain;
-        domain_whole(&mesh->element[e], &domain);
-        if (rule->k0 > 0)
-            wave_nodes(rule, &domain, nodes);
+        const struct element *element = &mesh->element[e];
+        struct domain pieces[DOMAIN_PIECES];
+        double x = crossing(wanted, element->box[0][0], element->box[1][0]);
+        size_t n = 1;
+        if (isnan(x))
+            domain_whole(element, pieces);
         else
-            cell_nodes(&domain, whole, plain, rule->gauss, nodes);
+            n = domain_cut(element, x, pieces);
+        for (size_t k = 0; k < n; k++)
+            if (rule->k0 > 0)
+                wave_nodes(rule, &pieces[k], nodes);
+            else
+                cell_nodes(&pieces[k], whole, plain, rule->gauss, nodes);
     }
 }
 
-static void waterline_nodes(const struct line *line, const struct wave_rule *rule,
-                            struct nodes *nodes)
+static void waterline_nodes(const struct line *line, const struct source_rule *wanted,
+                            const struct wave_rule *rule, struct nodes *nodes)
 {
     for (size_t i = 0; i < line->n; i++) {
         const struct line_segment *segment = &line->segment[i];
-        if (rule->k0 > 0)
-            wave_line_nodes(rule, line, segment, segment->range, nodes);
-        else
-            line_nodes(line, segment, segment->range, PLAIN_POINTS, rule->gauss, nodes);
+        double stops[ELEMENT_SIDE + 2], x = crossing(wanted, segment->box[0], segment->box[1]);
+        size_t n = line_cut(segment, x, stops); /* NAN: no stop */
+        for (size_t k = 0; k + 1 < n; k++)
+            if (rule->k0 > 0)
+                wave_line_nodes(rule, line, segment, stops + k, nodes);
+            else
+                line_nodes(line, segment, stops + k, PLAIN_POINTS, rule->gauss, nodes);
     }
 }
 
-igabem_status sources_create(const igabem_solution *solution, double k0, double t_max,
+igabem_status sources_create(const igabem_solution *solution, const struct source_rule *wanted,
                              const double *sigma, struct sources **result)
 {
     *result = NULL;
@@ -199,13 +218,16 @@ igabem_status sources_create(const igabem_solution *solution, double k0, double 
         status = line_create(density, mesh, solution->options.stem_limit, &line);
     if (status != IGABEM_OK)
         goto done;
-    struct wave_rule rule = {
-        .k0 = k0, .t_max = t_max, .tolerance = solution->options.tolerance, .gauss = &gauss};
+    double k0 = wanted->k0;
+    struct wave_rule rule = {.k0 = k0,
+                             .t_max = wanted->t_max,
+                             .tolerance = solution->options.tolerance,
+                             .gauss = &gauss};
     nodes_init(&surface, mesh);
     nodes_init(&waterline, mesh);
     surface.with_normals = waterline.with_normals = 1;
-    surface_nodes(mesh, &rule, &surface);
-    waterline_nodes(line, &rule, &waterline);
+    surface_nodes(mesh, wanted, &rule, &surface);
+    waterline_nodes(line, wanted, &rule, &waterline);
     if (surface.failed || waterline.failed) {
         status = no_memory();
         goto done;

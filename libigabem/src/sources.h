@@ -22,9 +22,16 @@ struct sources {
     double *line_velocity[3]; /* grad phi on the waterline, m/s, or NULL */
 };
 
-/* Wave angles up to t_max at wave number k0 (k0 = 0: no waves, plain rule). sigma: coefficients of
- * the density, NULL for those of the solution. */
-igabem_status sources_create(const igabem_solution *solution, double k0, double t_max,
+/* Wave angles up to t_max at wave number k0 (k0 = 0: no waves, plain rule). No element lies on both
+ * sides of a plane x = cut[i] unless an earlier one crosses it too. */
+struct source_rule {
+    double k0, t_max;
+    size_t cuts;
+    const double *cut;
+};
+
+/* sigma: coefficients of the density, NULL for those of the solution. */
+igabem_status sources_create(const igabem_solution *solution, const struct source_rule *wanted,
                              const double *sigma, struct sources **sources);
 void sources_free(struct sources *sources);
 
