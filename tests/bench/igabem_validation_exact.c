@@ -199,7 +199,8 @@ static void degree_table(double diameter, double depth, size_t rows, const struc
         "resolve the radius of curvature there, B/2 times B/L: not yet so on the two coarser "
         "levels, "
         "whose orders scatter\nabout it. Even degrees collocate at the middle of spans and gain on "
-        "it; odd ones, at the knots, stay up to one order below it on these levels.\n\n"
+        "it; odd ones, at the knots, reach it later: degree 5 on 40 x 20 elements, 1125 unknowns, "
+        "at Fr 0.50 with 6.1.\n\n"
         "| degree, elements | unknowns |");
     for (size_t i = 0; i < rows; i++)
         printf(" Fr %.2f |", exact[i].froude);

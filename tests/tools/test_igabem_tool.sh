@@ -108,6 +108,20 @@ check "ladder runs" $?
 check "ladder prints its changes" $?
 grep -q "wave cut" "$work/out" && grep -q "shares of the fore" "$work/out"
 check "survey prints wave cut and shares" $?
+# Without a mesh of the user's own a hull of few spans gets one; exact: spheroidal harmonics.
+"$igabem" solve "$hulls/spheroid.json" --fr 0.4 --json > "$work/json" 2> "$work/err"
+check "default mesh runs" $?
+expect_value cw 0.01227124422 1e-4
+[ ! -s "$work/err" ]
+check "no warning on the default mesh" $?
+expect_code 0 "differ by .* refine" "$igabem" solve "$hulls/spheroid.json" --fr 0.4 --refine 1
+"$igabem" solve "$hulls/wigley.json" --fr 0.3,0.35 --elements 8,3 --formulation all > "$work/out"
+check "all formulations run" $?
+[ "$(sed -n '/^uncertainty of the theory: C_w over the 4/,$p' "$work/out" | grep -c '%.*%')" -eq 2 ]
+check "spread of the formulations" $?
+grep -q nan "$work/out"
+[ $? -ne 0 ]
+check "no nan in the table" $?
 "$igabem" solve "$hulls/dtmb5415.json" --fr 0.35 --elements 16,6 --free-to-trim --json > "$work/json"
 check "free to sink and trim" $?
 # What floats deeper by s has gained the volume s A, A = 3.4003 m^2, V = 0.55349 m^3 at rest.

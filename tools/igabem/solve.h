@@ -14,12 +14,13 @@ struct solve_request {
     igabem_options options;
     double *fr;
     size_t n_fr;
-    bool all;          /* every formulation */
-    bool free_to_trim; /* at the sinkage and trim of equilibrium */
-    bool survey;       /* shares of bow, middle and stern, and a wave cut */
-    int ladder;        /* levels, 1: none */
-    double x_s;        /* metres, NAN: options.stern_length */
-    double viscosity;  /* kinematic, m^2/s */
+    bool all;              /* every formulation */
+    bool free_to_trim;     /* at the sinkage and trim of equilibrium */
+    bool resolution_given; /* --refine, --refine-v or --elements */
+    bool survey;           /* shares of bow, middle and stern, and a wave cut */
+    int ladder;            /* levels, 1: none */
+    double x_s;            /* metres, NAN: options.stern_length */
+    double viscosity;      /* kinematic, m^2/s */
     double form_factor;
     const char *vtu, *waves, *plot, *spectrum;
     size_t waves_grid[2];

@@ -1,4 +1,5 @@
-/* C_w against Froude number as a small SVG: one line per formulation, axes with round numbers. */
+/* C_w against Froude number as a small SVG: one line per formulation, axes with round numbers; of
+ * the first formulation also C_w by pressure, dashed, and the band between 0.85 and 1.15 t_c. */
 #include "cli.h"
 #include "solve.h"
 
@@ -48,7 +49,7 @@ static void draw_axes(FILE *f, const struct frame *frame)
                 "<line x1=\"%d\" y1=\"%.1f\" x2=\"%d\" y2=\"%.1f\"/><text x=\"%d\" y=\"%.1f\" "
                 "text-anchor=\"end\" stroke=\"none\">%.4g</text>\n",
                 LEFT, to_y(frame, y), WIDTH - RIGHT, to_y(frame, y), LEFT - 8, to_y(frame, y) + 4,
-                y);
+                fabs(y) < 1e-9 * dy ? 0.0 : y);
     fprintf(f,
             "<text x=\"%d\" y=\"%d\" text-anchor=\"middle\" stroke=\"none\">Fr</text>\n"
             "<text x=\"18\" y=\"%d\" text-anchor=\"middle\" stroke=\"none\" "
@@ -57,11 +58,53 @@ static void draw_axes(FILE *f, const struct frame *frame)
             (HEIGHT - BOTTOM + TOP) / 2);
 }
 
+static const char *const colours[6] = {"#1b6ca8", "#c0392b", "#27825c",
+                                       "#8e44ad", "#b9770e", "#555555"};
+
+/* Entry number `row` of the legend. */
+static void draw_legend(FILE *f, size_t row, const char *colour, const char *dashes,
+                        const char *text)
+{
+    int y = TOP + 14 + 20 * (int)row;
+    fprintf(f,
+            "<line x1=\"%d\" y1=\"%d\" x2=\"%d\" y2=\"%d\" stroke=\"%s\" stroke-width=\"2\"%s/>"
+            "<text x=\"%d\" y=\"%d\" font-size=\"12\">%s</text>\n",
+            WIDTH - RIGHT + 10, y, WIDTH - RIGHT + 34, y, colour, dashes, WIDTH - RIGHT + 40, y + 4,
+            text);
+}
+
+/* What the first formulation is worth: its cut-off band and its pressure. */
+static void draw_doubt(FILE *f, const struct frame *frame, const struct solve_run *run,
+                       size_t per_fr)
+{
+    static const char dashes[] = " stroke-dasharray=\"5 4\"";
+    const struct solve_result *r = solve_run_result(run, run->levels - 1, 0);
+    size_t n = run->request->n_fr;
+    if (isfinite(r->forces.cw_cutoff_lower) && isfinite(r->forces.cw_cutoff_upper)) {
+        fprintf(f, "<polygon fill=\"%s\" fill-opacity=\"0.2\" stroke=\"none\" points=\"",
+                colours[0]);
+        for (size_t i = 0; i < n; i++)
+            fprintf(f, "%.2f,%.2f ", to_x(frame, r[i * per_fr].options.froude),
+                    to_y(frame, 1000.0 * r[i * per_fr].forces.cw_cutoff_lower));
+        for (size_t i = n; i-- > 0;)
+            fprintf(f, "%.2f,%.2f ", to_x(frame, r[i * per_fr].options.froude),
+                    to_y(frame, 1000.0 * r[i * per_fr].forces.cw_cutoff_upper));
+        fprintf(f, "\"/>\n");
+    }
+    if (!isfinite(r->forces.cw_pressure))
+        return;
+    fprintf(f, "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"1.5\"%s points=\"", colours[0],
+            dashes);
+    for (size_t i = 0; i < n; i++)
+        fprintf(f, "%.2f,%.2f ", to_x(frame, r[i * per_fr].options.froude),
+                to_y(frame, 1000.0 * r[i * per_fr].forces.cw_pressure));
+    fprintf(f, "\"/>\n");
+    draw_legend(f, per_fr, colours[0], dashes, "the first, by pressure");
+}
+
 static void draw_series(FILE *f, const struct frame *frame, const struct solve_run *run,
                         size_t which, size_t per_fr)
 {
-    static const char *const colours[6] = {"#1b6ca8", "#c0392b", "#27825c",
-                                           "#8e44ad", "#b9770e", "#555555"};
     const struct solve_result *first = solve_run_result(run, run->levels - 1, which);
     fprintf(f, "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"2\" points=\"",
             colours[which % 6]);
@@ -70,12 +113,9 @@ static void draw_series(FILE *f, const struct frame *frame, const struct solve_r
         fprintf(f, "%.2f,%.2f ", to_x(frame, r->options.froude),
                 to_y(frame, 1000.0 * r->forces.cw));
     }
-    fprintf(f,
-            "\"/>\n<line x1=\"%d\" y1=\"%d\" x2=\"%d\" y2=\"%d\" stroke=\"%s\" "
-            "stroke-width=\"2\"/><text x=\"%d\" y=\"%d\" font-size=\"12\">%s</text>\n",
-            WIDTH - RIGHT + 10, TOP + 14 + 20 * (int)which, WIDTH - RIGHT + 34,
-            TOP + 14 + 20 * (int)which, colours[which % 6], WIDTH - RIGHT + 40,
-            TOP + 18 + 20 * (int)which, igabem_formulation_name(first->options.formulation));
+    fprintf(f, "\"/>\n");
+    draw_legend(f, which, colours[which % 6], "",
+                igabem_formulation_name(first->options.formulation));
 }
 
 int solve_write_plot(const struct solve_run *run, const char *path)
@@ -87,6 +127,10 @@ int solve_write_plot(const struct solve_run *run, const char *path)
         frame.x0 = fmin(frame.x0, r->options.froude);
         frame.x1 = fmax(frame.x1, r->options.froude);
         frame.y1 = fmax(frame.y1, 1080.0 * r->forces.cw);
+        if (c % per_fr == 0) /* fmax and fmin leave NAN out */
+            frame.y1 = fmax(frame.y1, 1080.0 * r->forces.cw_pressure);
+        if (c % per_fr == 0)
+            frame.y0 = fmin(frame.y0, 1080.0 * r->forces.cw_pressure);
     }
     if (!(frame.x1 > frame.x0) || !(frame.y1 > 0))
         return cli_fail("--plot %s: expected at least two Froude numbers and a wave resistance",
@@ -100,6 +144,7 @@ int solve_write_plot(const struct solve_run *run, const char *path)
             "<!-- igabem %s -->\n<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
             WIDTH, HEIGHT, WIDTH, HEIGHT, TOOL_VERSION);
     draw_axes(file.stream, &frame);
+    draw_doubt(file.stream, &frame, run, per_fr);
     for (size_t which = 0; which < per_fr; which++)
         draw_series(file.stream, &frame, run, which, per_fr);
     fprintf(file.stream, "</svg>\n");

@@ -47,21 +47,39 @@ static void print_settings(const struct solve_run *run, const struct solve_resul
     printf("\n");
 }
 
+/* A number of a column, "-" where the formulation has none. */
+static void print_column(const char *format, int width, double value)
+{
+    if (isfinite(value))
+        printf(format, width, value);
+    else
+        printf(" %*s", width, "-");
+}
+
 static void print_result(const struct solve_run *run, const struct solve_result *result)
 {
     const igabem_forces *f = &result->forces;
-    printf("%-7.4g %-20s %6zu %11.4e %11.4e %11.4e %9.4g %9.1e %7.2f\n", result->options.froude,
-           igabem_formulation_name(result->options.formulation), f->dofs, f->cw, f->cw_pressure,
-           f->cw_l2, f->rw, f->condition, f->seconds);
+    printf("%-7.4g %-20s %6zu", result->options.froude,
+           igabem_formulation_name(result->options.formulation), f->dofs);
+    print_column(" %*.4e", 11, f->cw);
+    print_column(" %*.4e", 11, f->cw_pressure);
+    print_column(" %*.4e", 11, f->cw_l2);
+    print_column(" %*.4g", 9, f->rw);
+    print_column(" %*.1e", 9, f->condition);
+    printf(" %7.2f\n", f->seconds);
     print_settings(run, result);
     if (isfinite(f->cw_cutoff_lower) || isfinite(f->cw_cutoff_upper))
-        printf("  C_w at 0.85 t_c %.4e, at 1.15 t_c %.4e; beyond t_c %.2g %%\n", f->cw_cutoff_lower,
-               f->cw_cutoff_upper, 100.0 * f->share_beyond_cutoff);
+        printf("  C_w at 0.85 t_c %.4e, at 1.15 t_c %.4e; %.2g %% of it from beyond t_c\n",
+               f->cw_cutoff_lower, f->cw_cutoff_upper, 100.0 * f->share_beyond_cutoff);
     else if (f->share_beyond_cutoff > 0)
-        printf("  beyond t_c %.2g %% of C_w\n", 100.0 * f->share_beyond_cutoff);
-    if (isfinite(f->cw_pressure_linear))
-        printf("  C_w by pressure without the quadratic and run-up terms %.4e; run-up %.4e\n",
-               f->cw_pressure_linear, f->cw_run_up);
+        printf("  %.2g %% of C_w from beyond t_c\n", 100.0 * f->share_beyond_cutoff);
+    if (isfinite(f->cw_pressure_linear)) {
+        printf("  C_w by pressure without the quadratic and run-up terms %.4e",
+               f->cw_pressure_linear);
+        if (run->info.surface_piercing)
+            printf("; run-up %.4e", f->cw_run_up);
+        printf("\n");
+    }
     if (isfinite(f->cw_transom))
         printf("  a dry transom adds %.4e to C_w by pressure\n", f->cw_transom);
     if (isfinite(result->cw_cut))
@@ -70,7 +88,8 @@ static void print_result(const struct solve_run *run, const struct solve_result 
         printf("  shares of the fore, middle and aft third: %.3g, %.3g, %.3g %%\n",
                100.0 * result->share[0], 100.0 * result->share[1], 100.0 * result->share[2]);
     if (isfinite(f->sinkage))
-        printf("  sinkage %.4g m, trim %.4g deg bow up\n", f->sinkage, f->trim * 57.29577951308232);
+        printf("  sinkage %.4g m, trim %.4g deg (bow up positive)\n", f->sinkage,
+               f->trim * 57.29577951308232);
     if (result->options.kernel == IGABEM_KERNEL_KELVIN) {
         double cf = ittc57_friction(f->speed * run->info.length / run->request->viscosity);
         double ct = (1.0 + run->request->form_factor) * cf + f->cw;
@@ -107,19 +126,30 @@ static void print_ladder(const struct solve_run *run, size_t c)
     }
 }
 
-/* Spread of the formulations at one Froude number: the uncertainty that a user sees. */
+/* Spread of the formulations at each Froude number: the uncertainty that a user sees. The first of
+ * them is the default. */
 static void print_spread(const struct solve_run *run)
 {
     size_t per_fr = run->cases / run->request->n_fr;
-    printf("\nspread of the formulations\n");
+    printf("\nuncertainty of the theory: C_w over the %zu formulations\n"
+           "Fr      default     lowest                          highest\n",
+           per_fr);
     for (size_t i = 0; i < run->request->n_fr; i++) {
-        double low = INFINITY, high = -INFINITY;
-        for (size_t k = 0; k < per_fr; k++) {
-            double cw = solve_run_result(run, run->levels - 1, i * per_fr + k)->forces.cw;
-            low = fmin(low, cw);
-            high = fmax(high, cw);
+        const struct solve_result *first = solve_run_result(run, run->levels - 1, i * per_fr);
+        const struct solve_result *low = first, *high = first;
+        for (size_t k = 1; k < per_fr; k++) {
+            const struct solve_result *other = first + k;
+            if (other->forces.cw < low->forces.cw)
+                low = other;
+            if (other->forces.cw > high->forces.cw)
+                high = other;
         }
-        printf("%-7.4g %.4e to %.4e\n", run->request->fr[i], low, high);
+        double base = first->forces.cw;
+        printf("%-7.4g %.4e  %.4e %+4.0f %% %-20s %.4e %+4.0f %% %s\n", run->request->fr[i], base,
+               low->forces.cw, 100.0 * (low->forces.cw / base - 1.0),
+               igabem_formulation_name(low->options.formulation), high->forces.cw,
+               100.0 * (high->forces.cw / base - 1.0),
+               igabem_formulation_name(high->options.formulation));
     }
 }
 

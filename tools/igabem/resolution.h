@@ -1,0 +1,14 @@
+/* How fine a density to start from when the command line does not say. */
+#ifndef IGABEM_TOOL_RESOLUTION_H
+#define IGABEM_TOOL_RESOLUTION_H
+
+#include "hull_input.h"
+
+#include <igabem/igabem.h>
+
+/* Sets options->refine and refine_v so that the finest of `levels` levels of a ladder, each half as
+ * fine again, has about 400 unknowns; a hull with more spans than that is left as it is. CLI_OK, or
+ * CLI_FAILED after a message. */
+int resolution_by_rule(const struct hull_input *input, int levels, igabem_options *options);
+
+#endif
