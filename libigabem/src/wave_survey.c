@@ -186,6 +186,31 @@ static igabem_status integrate(const igabem_solution *solution, const struct cut
                          : igabem_fail(IGABEM_ERROR_NUMERIC, "the wave cut has no finite spectrum");
 }
 
+/* The waves on both sides must be alike; on a body given whole the amplitudes tell. */
+static igabem_status check_symmetry(const igabem_solution *solution)
+{
+    enum { ANGLES = 3 };
+    static const double angle[2 * ANGLES] = {0.2, -0.2, 0.7, -0.7, 1.5, -1.5};
+    const double share = 1e-3;
+    double h[2 * ANGLES][2], largest = 0.0;
+    if (solution->density->symmetric)
+        return IGABEM_OK;
+    igabem_status status = igabem_kochin(solution, 2 * ANGLES, angle, h[0], NULL);
+    if (status)
+        return status;
+    for (int i = 0; i < 2 * ANGLES; i++)
+        largest = fmax(largest, hypot(h[i][0], h[i][1]));
+    for (int i = 0; i < 2 * ANGLES; i += 2) {
+        double apart = hypot(h[i][0] - h[i + 1][0], h[i][1] - h[i + 1][1]);
+        if (!(apart <= share * largest))
+            return igabem_fail(IGABEM_ERROR_ARGUMENT,
+                               "a wave cut on one side needs the same waves on the other: at t = "
+                               "%g and %g the amplitudes differ by %.2g of the largest",
+                               angle[i], angle[i + 1], apart / largest);
+    }
+    return IGABEM_OK;
+}
+
 static igabem_status check_request(const igabem_solution *solution, const double *cw)
 {
     if (!solution || !cw)
@@ -193,10 +218,7 @@ static igabem_status check_request(const igabem_solution *solution, const double
     if (!solution->waves)
         return igabem_fail(IGABEM_ERROR_ARGUMENT,
                            "this solution has no free surface, expected the Kelvin kernel");
-    if (!solution->density->symmetric)
-        return igabem_fail(IGABEM_ERROR_ARGUMENT,
-                           "a wave cut on one side needs a hull with a plane of symmetry");
-    return IGABEM_OK;
+    return check_symmetry(solution);
 }
 
 igabem_status igabem_wave_cut(const igabem_solution *solution, double y, double *cw)

@@ -156,9 +156,10 @@ static int wanted(int argc, char **argv, const char *section)
 int main(int argc, char **argv)
 {
     if (argc < 2) {
-        fprintf(stderr,
-                "usage: igabem_validation HULL.json [double-body|spheroids|wigley|forms|tank|"
-                "5415|hulls]\n");
+        fprintf(
+            stderr,
+            "usage: igabem_validation HULL.json [double-body|spheroids|wigley|forms|tank|patches|"
+            "5415|hulls]\n");
         return 2;
     }
     printf(
@@ -178,6 +179,8 @@ int main(int argc, char **argv)
         forms_section();
     if (wanted(argc, argv, "tank"))
         tank_section();
+    if (wanted(argc, argv, "patches"))
+        patches_section();
     if (wanted(argc, argv, "5415"))
         dtmb5415_section(argv[1]);
     if (wanted(argc, argv, "hulls"))

@@ -28,6 +28,7 @@ void spheroid_section(void);
 void wigley_section(void);
 void forms_section(void);
 void tank_section(void);
+void patches_section(void);
 void dtmb5415_section(const char *file);
 void hulls_section(void);
 

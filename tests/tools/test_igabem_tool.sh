@@ -161,5 +161,23 @@ expect_code 2 "expected auto, lu or gmres" "$igabem" solve "$hulls/wigley.json" 
 [ $? -ne 0 ]
 check "without it on request" $?
 
+# A wedge with freeboard in two patches, the face at the stern with u upright.
+face='{"degree":[1,1],"size":[2,2],"knots":[[0,0,1,1],[0,0,1,1]],
+  "points":[[0,0,0.03],[0,0.05,0.03],[0,0,-0.06],[0,0,-0.06]]}'
+side='{"degree":[1,1],"size":[2,2],"knots":[[0,0,1,1],[0,0,1,1]],
+  "points":[[0,0.05,0.03],[0,0,-0.06],[1,0,0.03],[1,0,-0.06]]}'
+head='{"format":"nurbs","version":1,"unit":"m","patches":['
+echo "$head $face, $side]}" > "$work/closed.json"
+echo "$head $side]}" > "$work/open.json"
+for stern in open closed; do
+  "$igabem" check "$work/$stern.json" --json > "$work/json"
+  grep -q "\"stern\": \"$stern transom\"" "$work/json"
+  check "check tells an $stern transom" $?
+  expect_value volume 0.001 1e-6
+  "$igabem" hydrostatics "$work/$stern.json" --json > "$work/json"
+  expect_value transom_area 0.002 1e-6
+done
+expect_code 1 "open at" "$igabem" check <(sed 's/\[1,0,0.03\],\[1,0,-0.06\]/[1,0.01,0.03],[1,0.01,-0.06]/' "$work/open.json")
+
 [ $failures -eq 0 ] && echo "all checks passed"
 exit $((failures > 0))

@@ -84,6 +84,23 @@ static nurbs_status place(nurbs_patches **patches, const struct hull_request *re
     return NURBS_OK;
 }
 
+/* The part below the level; sections are lines of constant u, or of constant v where those do not
+ * cross the level. */
+static nurbs_status cut_patch(const nurbs_surface *patch, double level, double tolerance,
+                              nurbs_surface **below)
+{
+    nurbs_surface *swapped = NULL;
+    nurbs_status status = nurbs_surface_wetted(patch, level, tolerance, below);
+    if (status != NURBS_ERROR_GEOMETRY)
+        return status;
+    status = nurbs_surface_swap(patch, &swapped);
+    if (!status)
+        status = nurbs_surface_wetted(swapped, level, tolerance, below);
+    nurbs_surface_free(swapped);
+    /* The message that names the patch's own parameters. */
+    return status ? nurbs_surface_wetted(patch, level, tolerance, below) : status;
+}
+
 /* One patch of the file below the level, moved so that the water lies at z = 0; *wetted NULL when
  * nothing of it is below. */
 static nurbs_status wet_patch(const nurbs_surface *patch, double level, double length, int *cut,
@@ -101,7 +118,7 @@ static nurbs_status wet_patch(const nurbs_surface *patch, double level, double l
     nurbs_status status;
     if (upper[2] > level + CLEARANCE * length) {
         *cut = 1;
-        status = nurbs_surface_wetted(patch, level, CUT_TOLERANCE * length, &below);
+        status = cut_patch(patch, level, CUT_TOLERANCE * length, &below);
     } else {
         status = nurbs_surface_copy(patch, &below);
     }

@@ -180,10 +180,10 @@ IGABEM_API igabem_status igabem_kochin(const igabem_solution *solution, size_t n
 IGABEM_API igabem_status igabem_wave_shares(const igabem_solution *solution, size_t n,
                                             const double *x, double *share);
 
-/** C_w from the waves along the line y = const beside a symmetric hull (Eggers, Sharma and Ward
- * 1967), m; NAN: a transverse wave length off the side. It holds a part of the local disturbance of
- * relative size e^{-k0 (y - B/2)}, and waves as filtered by the cut-off, which the Kochin function
- * is not. Costs some thousand elevations. */
+/** C_w from the waves along the line y = const beside a symmetric hull, given as a half or whole
+ * (Eggers, Sharma and Ward 1967), m; NAN: a transverse wave length off the side. It holds a part of
+ * the local disturbance of relative size e^{-k0 (y - B/2)}, and waves as filtered by the cut-off,
+ * which the Kochin function is not. Costs some thousand elevations. */
 IGABEM_API igabem_status igabem_wave_cut(const igabem_solution *solution, double y, double *cw);
 
 #ifdef __cplusplus
