@@ -12,14 +12,15 @@ static const double WANTED = 400.0, RATIO = 1.5; /* unknowns; mesh widths of a l
 
 enum { MOST_PARTS = 64, SAMPLES = 33 };
 
-/* One patch: knot spans, length along its middle line, degree of the density in each direction. */
+/* One patch, along the hull and around it: knot spans, length of the middle line, degree of the
+ * density. */
 struct extent {
     double spans[2], length[2], degree[2];
 };
 
 static int measure(const nurbs_surface *surface, int least_degree, struct extent *extent)
 {
-    double low[2], high[2], uv[SAMPLES][2], xyz[SAMPLES][3];
+    double low[2], high[2], uv[SAMPLES][2], xyz[SAMPLES][3], gain[2];
     for (int d = 0; d < 2; d++) {
         int degree = nurbs_surface_degree(surface, d);
         size_t size = nurbs_surface_size(surface, d);
@@ -40,11 +41,16 @@ static int measure(const nurbs_surface *surface, int least_degree, struct extent
         }
         if (nurbs_surface_eval(surface, 0, SAMPLES, uv[0], xyz[0]))
             return 0;
+        gain[d] = fabs(xyz[SAMPLES - 1][0] - xyz[0][0]);
         extent->length[d] = 0.0;
         for (int i = 1; i < SAMPLES; i++)
             extent->length[d] += hypot(hypot(xyz[i][0] - xyz[i - 1][0], xyz[i][1] - xyz[i - 1][1]),
                                        xyz[i][2] - xyz[i - 1][2]);
     }
+    if (gain[1] > gain[0])
+        *extent = (struct extent){.spans = {extent->spans[1], extent->spans[0]},
+                                  .length = {extent->length[1], extent->length[0]},
+                                  .degree = {extent->degree[1], extent->degree[0]}};
     return 1;
 }
 
@@ -58,7 +64,7 @@ static double unknowns(size_t n, const struct extent *extent, const int parts[2]
 }
 
 /* Elements may be longer than wide by the square root of the patch's own ratio: more than zero
- * means that direction u is due to be divided. Mean over the patches. */
+ * means that the direction along is due to be divided. Mean over the patches. */
 static double lag(size_t n, const struct extent *extent, const int parts[2])
 {
     double sum = 0.0;
