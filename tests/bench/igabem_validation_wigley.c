@@ -151,10 +151,12 @@ static void thin_limit(void)
 {
     static const double beams[6] = {0.1, 0.05, 0.02, 0.01, 0.005, 0.0025};
     static const double froude[4] = {0.25, 0.30, 0.35, 0.40};
-    double ratio[6][4];
-    printf("### Thin limit\n\nC_w over Michell's, 32 x 8 elements, defaults. Extrapolated: "
-           "linearly in the beam from the last two rows, exact value 1.\n\n"
-           "| B/L | Fr 0.25 | 0.30 | 0.35 | 0.40 |\n|---|---|---|---|---|\n");
+    double ratio[6][4], pressure[6][4];
+    printf(
+        "### Thin limit\n\nC_w over Michell's by Kochin function (by pressure), 32 x 8 elements, "
+        "defaults. Extrapolated: linearly in the beam from the last\ntwo rows, exact value 1. The "
+        "two C_w differ in proportion to the beam (theory.md, section 10).\n\n"
+        "| B/L | Fr 0.25 | 0.30 | 0.35 | 0.40 |\n|---|---|---|---|---|\n");
     for (int b = 0; b < 6; b++) {
         igabem_hull *hull = wigley(beams[b], DRAFT, 32, 8);
         igabem_options options[8];
@@ -167,14 +169,16 @@ static void thin_limit(void)
         printf("| %.4f |", beams[b]);
         for (int i = 0; i < 4; i++) {
             ratio[b][i] = forces[i].cw / forces[i + 4].cw;
-            printf(" %.4f |", ratio[b][i]);
+            pressure[b][i] = forces[i].cw_pressure / forces[i + 4].cw;
+            printf(" %.4f (%.4f) |", ratio[b][i], pressure[b][i]);
         }
         printf("\n");
         igabem_hull_free(hull);
     }
     printf("| extrapolated |");
     for (int i = 0; i < 4; i++)
-        printf(" %.4f |", 2 * ratio[5][i] - ratio[4][i]);
+        printf(" %.4f (%.4f) |", 2 * ratio[5][i] - ratio[4][i],
+               2 * pressure[5][i] - pressure[4][i]);
     printf("\n\n");
 }
 
