@@ -116,7 +116,8 @@ igabem_status igabem_forces_compute(const igabem_solution *solution, igabem_forc
                               .residual = solution->residual,
                               .seconds = solution->seconds,
                               .memory = solution->memory,
-                              .dofs = solution->density->n};
+                              .dofs = solution->density->n,
+                              .cost = solution->cost};
     struct kochin_resistance far;
     igabem_status status = kochin_resistance(solution, &far);
     if (!status)

@@ -278,6 +278,19 @@ void influence_free(struct influence *influence)
     free(influence);
 }
 
+void influence_count(const struct influence *influence, const struct igabem_cost *cost)
+{
+    struct igabem_cost *total = influence->cost;
+    if (!total)
+        return;
+    total->singular_pairs += cost->singular_pairs;
+    total->near_pairs += cost->near_pairs;
+    total->far_pairs += cost->far_pairs;
+    total->rankine += cost->rankine;
+    total->local += cost->local;
+    total->wave += cost->wave;
+}
+
 WAVE_MULTIVERSION
 void regular_scatter(const struct element *element, const struct regular_rule *rule, size_t fields,
                      const double *k, size_t stride, double *rows, size_t row_stride)

@@ -29,11 +29,15 @@ struct influence {
                                                   one direction */
     double *storage;
     int threads;
+    struct igabem_cost *cost; /* where the integrals add their work; NULL: nowhere */
 };
 
 igabem_status influence_create(const struct density *density, const struct mesh *mesh,
                                double tolerance, int threads, struct influence **influence);
 void influence_free(struct influence *influence);
+
+/* Adds the work of one thread; not to be called by two at once. */
+void influence_count(const struct influence *influence, const struct igabem_cost *cost);
 
 /* Raises class[2] to the rules that a panel needs to be seen from the rule's point, or returns 0 if
  * none is fine enough: the kernel is too close to its singularity, or the panel's shape too uneven.

@@ -21,6 +21,7 @@ struct local_work {
     size_t far_panels, far_nodes;
     double *batch; /* X, Y, Z and the three derivatives, `capacity` each */
     size_t capacity;
+    struct igabem_cost cost;
 };
 
 static int reserve(struct local_work *work, size_t n)
@@ -69,6 +70,7 @@ static void collect(const struct influence *influence, double k0, const double i
         if (far) {
             work->far[work->far_panels++] = (struct far_panel){p, work->far_nodes, far};
             work->far_nodes += far->n;
+            work->cost.far_pairs += (size_t)images;
             continue;
         }
         for (size_t e = panel->first; e < panel->first + panel->count; e++) {
@@ -83,6 +85,7 @@ static void collect(const struct influence *influence, double k0, const double i
                 memcpy(rule.point, image[i], sizeof rule.point);
                 for (size_t k = 0; k < n; k++)
                     near_nodes(&rule, &pieces[k], &work->nodes[i]);
+                work->cost.near_pairs++;
             }
         }
     }
@@ -109,6 +112,7 @@ static igabem_status evaluate(double k0, const double image[2][3], int images,
         n += work->nodes[i].n;
     }
     *total = n;
+    work->cost.local += n;
     if (!reserve(work, n))
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu nodes", n);
     double *X = work->batch, *Y = X + n, *Z = Y + n, *v = Z + n;
@@ -223,8 +227,11 @@ static igabem_status all_rows(const struct influence *influence, const struct li
                           : surface_rows(influence, k0, factor, const_image, images, &work, to);
         }
 #pragma omp critical
-        if (status != IGABEM_OK)
-            result = status;
+        {
+            influence_count(influence, &work.cost);
+            if (status != IGABEM_OK)
+                result = status;
+        }
         for (int i = 0; i < 2; i++)
             nodes_free(&work.nodes[i]);
         free(work.far);

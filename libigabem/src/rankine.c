@@ -47,6 +47,7 @@ struct rankine_work {
     struct nodes singular; /* relative to the point */
     double *k;
     size_t capacity;
+    struct igabem_cost cost;
 };
 
 static void reflect(const double p[3], const struct reflection *reflection, double out[3])
@@ -66,6 +67,7 @@ static igabem_status flush(struct rankine_work *work, struct nodes *nodes, const
     }
     if (nodes->failed || (nodes->n && !work->k))
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for quadrature nodes");
+    work->cost.rankine += nodes->n;
     kernel_batch(p, reflection, reflection->z, nodes, work->k);
     nodes_scatter(nodes, 3, work->k, nodes->n, rows, stride);
     nodes_clear(nodes);
@@ -112,7 +114,7 @@ static struct far_view look(const struct influence *influence, size_t p, const d
 WAVE_MULTIVERSION
 static void far_rows(const struct influence *influence, const double image[4][3],
                      const struct far_view *views, int images, double *direct, double *mirrored,
-                     size_t stride)
+                     size_t stride, struct igabem_cost *cost)
 {
     const struct mesh *mesh = influence->mesh;
     for (size_t p = 0; p < mesh->panels; p++) {
@@ -123,10 +125,14 @@ static void far_rows(const struct influence *influence, const double image[4][3]
         double k[2][3 * REGULAR_MOST * REGULAR_MOST];
         memset(k[0], 0, 3 * rule->n * sizeof(double));
         memset(k[1], 0, 3 * rule->n * sizeof(double));
-        for (int i = 0; i < images; i++)
-            if (view->images >> i & 1u)
-                kernel(image[i], &reflections[i], reflections[i].z, rule->n, rule->x, rule->y,
-                       rule->z, k[i & 1], rule->n);
+        for (int i = 0; i < images; i++) {
+            if (!(view->images >> i & 1u) || !(i & 1 ? mirrored : direct))
+                continue;
+            kernel(image[i], &reflections[i], reflections[i].z, rule->n, rule->x, rule->y, rule->z,
+                   k[i & 1], rule->n);
+            cost->far_pairs++;
+            cost->rankine += rule->n;
+        }
         const struct element *element = &mesh->element[mesh->panel[p].first];
         if (direct)
             regular_scatter(element, rule, 3, k[0], rule->n, direct, stride);
@@ -156,11 +162,13 @@ static igabem_status near_rows(const struct influence *influence, size_t point,
                 singular_nodes(element, local[0], local[1], singular_order(influence->tolerance),
                                &influence->gauss, &work->singular, correction);
                 add_correction(element, local, correction, rows, density->n);
+                work->cost.singular_pairs++;
                 continue;
             }
             struct domain domain;
             domain_whole(element, &domain);
             near_nodes(&rule, &domain, &work->nodes);
+            work->cost.near_pairs++;
         }
     }
     static const double origin[3] = {0.0, 0.0, 0.0};
@@ -195,7 +203,8 @@ static igabem_status point_rows(const struct influence *influence, size_t point,
         if (panel_contains(influence, &influence->mesh->panel[p], point))
             views[p].images &= ~1u;
     }
-    far_rows(influence, (const double(*)[3])image, views, images, direct, mirrored, density->n);
+    far_rows(influence, (const double(*)[3])image, views, images, direct, mirrored, density->n,
+             &work->cost);
     igabem_status status = IGABEM_OK;
     for (int i = 0; i < images && status == IGABEM_OK; i++) {
         double *rows = i & 1 ? mirrored : direct;
@@ -236,8 +245,11 @@ igabem_status influence_rankine(const struct influence *influence, double *ranki
                 direct[k] += weight * buffer[k];
         }
 #pragma omp critical
-        if (status != IGABEM_OK)
-            result = status;
+        {
+            influence_count(influence, &work.cost);
+            if (status != IGABEM_OK)
+                result = status;
+        }
         nodes_free(&work.nodes);
         nodes_free(&work.singular);
         free(work.k);

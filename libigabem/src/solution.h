@@ -18,6 +18,7 @@ struct igabem_solution {
     double condition;    /* 1-norm estimate, NAN without a solve */
     size_t iterations;   /* of GMRES with the cut-off itself, 0 with LU */
     double residual;     /* relative, the largest of its solves; NAN with LU */
+    struct igabem_cost cost;
     double seconds;
     double memory; /* bytes of influences and matrix */
 };

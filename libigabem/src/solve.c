@@ -445,6 +445,9 @@ static igabem_status solve_group(struct shared *shared, const size_t *member, si
     if (status == IGABEM_OK)
         status =
             influence_create(first->density, mesh, first->options.tolerance, threads, &influence);
+    struct igabem_cost shared_cost = {0};
+    if (status == IGABEM_OK)
+        influence->cost = &shared_cost;
     if (status == IGABEM_OK)
         status = share_parts(influence, solutions, member, count, &parts);
     double common = (omp_get_wtime() - start) / (double)count, done = shared->done;
@@ -456,6 +459,8 @@ static igabem_status solve_group(struct shared *shared, const size_t *member, si
     for (size_t m = 0; m < count && status == IGABEM_OK; m++) {
         igabem_solution *solution = solutions[member[m]];
         start = omp_get_wtime();
+        solution->cost = shared_cost;
+        influence->cost = &solution->cost;
         if (parts.local && needs_waves(&solution->options) && solution->k0 != parts.local_k0) {
             status = shared_local(influence, solutions, member, count, m, parts.local);
             parts.local_k0 = solution->k0;

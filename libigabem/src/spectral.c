@@ -86,13 +86,15 @@ static size_t angles_at(const struct wave *wave, double depth)
     return n;
 }
 
+/* Returns the number of waves evaluated. */
 WAVE_MULTIVERSION
-static void accumulate(const struct wave *wave, const struct nodes *nodes, size_t functions,
-                       const double *f, double *buffer, double *moments)
+static size_t accumulate(const struct wave *wave, const struct nodes *nodes, size_t functions,
+                         const double *f, double *buffer, double *moments)
 {
-    size_t n = wave->spectrum->n;
+    size_t n = wave->spectrum->n, waves = 0;
     for (size_t i = 0; i < nodes->n; i++) {
         size_t angles = angles_at(wave, wave->rule.clearance - nodes->z[i]);
+        waves += angles;
         node_waves(wave, angles, nodes->x[i], nodes->y[i], nodes->z[i], buffer);
         for (size_t a = 0; a < functions; a++) {
             double strength = f[i * functions + a];
@@ -104,6 +106,7 @@ static void accumulate(const struct wave *wave, const struct nodes *nodes, size_
             }
         }
     }
+    return waves;
 }
 
 static size_t functions(const struct element *element)
@@ -116,6 +119,7 @@ struct wave_work {
     double *buffer; /* one node's waves, or one point's factors */
     double *f;      /* folded basis, or kernels at nodes */
     size_t f_capacity;
+    struct igabem_cost cost;
     double *nearby; /* [filters - 1][n] what further filters change, cleared after use */
 };
 
@@ -172,7 +176,7 @@ static igabem_status source_moments(const struct wave *wave, struct source *sour
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for wave moments");
     nodes_fold(&work->nodes, work->f);
     memset(source->moments, 0, m * wave->width * sizeof *source->moments);
-    accumulate(wave, &work->nodes, m, work->f, work->buffer, source->moments);
+    work->cost.wave += accumulate(wave, &work->nodes, m, work->f, work->buffer, source->moments);
     return IGABEM_OK;
 }
 
@@ -279,15 +283,17 @@ static void product_nearby(const struct wave *wave, const double *factor, size_t
         }
 }
 
-/* Velocities at the point due to nodes ahead of it: fills k[row of factors][node]. */
+/* Velocities at the point due to nodes ahead of it: fills k[row of factors][node]. Returns the
+ * number of waves evaluated. */
 WAVE_MULTIVERSION
-static void direct_sum(const struct wave *wave, const double *factor, size_t point_angles,
-                       double clearance, const struct nodes *nodes, double *buffer, double *k)
+static size_t direct_sum(const struct wave *wave, const double *factor, size_t point_angles,
+                         double clearance, const struct nodes *nodes, double *buffer, double *k)
 {
-    size_t n = wave->spectrum->n, width = wave->width;
+    size_t n = wave->spectrum->n, width = wave->width, waves = 0;
     for (size_t i = 0; i < nodes->n; i++) {
         size_t angles = angles_at(wave, clearance - nodes->z[i]);
         angles = angles < point_angles ? angles : point_angles;
+        waves += angles;
         node_waves(wave, angles, nodes->x[i], nodes->y[i], nodes->z[i], buffer);
         for (size_t row = 0; row < factor_rows(wave); row++) {
             double sum = 0.0;
@@ -306,6 +312,7 @@ static void direct_sum(const struct wave *wave, const double *factor, size_t poi
             k[row * nodes->n + i] = sum;
         }
     }
+    return waves;
 }
 
 static igabem_status straddling(const struct wave *wave, size_t point, const double *factor,
@@ -326,7 +333,7 @@ static igabem_status straddling(const struct wave *wave, size_t point, const dou
         return IGABEM_OK;
     if (work->nodes.failed || !reserve(work, factor_rows(wave) * n))
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for wave sums");
-    direct_sum(wave, factor, angles, -p[2], &work->nodes, work->buffer, work->f);
+    work->cost.wave += direct_sum(wave, factor, angles, -p[2], &work->nodes, work->buffer, work->f);
     nodes_scatter(&work->nodes, 3, work->f, n, rows, density->n);
     if (wave->change)
         nodes_scatter(&work->nodes, wave->filters - 1, work->f + 3 * n, n, work->nearby,
@@ -588,8 +595,11 @@ static igabem_status march(const struct wave *wave, int threads, double *rows)
                 status = block_rows(wave, wave->points * b / blocks,
                                     wave->points * (b + 1) / blocks, &work, state, factor, rows);
 #pragma omp critical
-        if (status != IGABEM_OK)
-            result = status;
+        {
+            influence_count(wave->influence, &work.cost);
+            if (status != IGABEM_OK)
+                result = status;
+        }
         nodes_free(&work.nodes);
         free(work.buffer);
         free(work.f);

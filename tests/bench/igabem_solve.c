@@ -2,7 +2,9 @@
  * formulation. Beside the wall clock the processor time, and that of the calling thread: it runs
  * the serial parts and its share of the others, so that their ratio is the speed-up of idle cores
  * even when other work holds the machine up (with OMP_WAIT_POLICY=passive). Usage:
- * igabem_bench_solve [threads [largest number of unknowns [auto|lu|gmres [sensitivity]]]] */
+ * igabem_bench_solve [threads [largest number of unknowns [auto|lu|gmres [sensitivity]]]]
+ * igabem_bench_solve tolerance   cost and error of the quadrature against the tolerance asked
+ * igabem_bench_solve froude      what the settings of a Froude sweep share */
 #define _POSIX_C_SOURCE 200809L
 #include <igabem/igabem.h>
 #include <math.h>
@@ -77,16 +79,13 @@ static int run(const igabem_hull *hull, const igabem_options *options, igabem_fo
     return !failed;
 }
 
-int main(int argc, char **argv)
+static int growth(const igabem_hull *hull, int argc, char **argv)
 {
     static const int meshes[][2] = {{16, 6},  {24, 8},  {32, 10}, {40, 12},
                                     {56, 16}, {80, 22}, {96, 27}, {112, 32}};
     enum { LEVELS = sizeof meshes / sizeof meshes[0], FITTED = 4 };
     double dofs[LEVELS], time[LEVELS];
     size_t n = 0, most = argc > 2 ? (size_t)atol(argv[2]) : 1000000;
-    igabem_hull *hull = read_hull(EXAMPLES_DIR "/hulls/dtmb5415.json");
-    if (!hull)
-        return EXIT_FAILURE;
     printf("unknowns     wall  processor  caller  exponent       MB         C_w  condition  "
            "iterations\n");
     for (size_t k = 0; k < LEVELS; k++) {
@@ -104,7 +103,7 @@ int main(int argc, char **argv)
         if ((size_t)(meshes[k][0] + 3) * (size_t)(meshes[k][1] + 3) > most)
             break;
         if (!run(hull, &options, &forces, spent))
-            return EXIT_FAILURE;
+            return 0;
         dofs[n] = (double)forces.dofs;
         time[n++] = spent[PROCESS];
         printf("%8zu %8.3f   %8.3f%8.3f  ", forces.dofs, spent[WALL], spent[PROCESS],
@@ -120,6 +119,141 @@ int main(int argc, char **argv)
     if (n >= FITTED)
         printf("processor time grows with the power %.2f of the unknowns over the last %d rows\n",
                exponent(FITTED, dofs + n - FITTED, time + n - FITTED), (int)FITTED);
+    return 1;
+}
+
+/* Least processor time of a few repetitions. */
+static int repeat(const igabem_hull *hull, const igabem_options *options, int times,
+                  igabem_forces *forces, double *least)
+{
+    *least = INFINITY;
+    for (int k = 0; k < times; k++) {
+        double spent[CLOCKS];
+        if (!run(hull, options, forces, spent))
+            return 0;
+        *least = fmin(*least, spent[PROCESS]);
+    }
+    return 1;
+}
+
+static int tolerances(const igabem_hull *hull, const char *name, igabem_options *options)
+{
+    enum { ROWS = 9, REPEAT = 3 };
+    igabem_forces row[ROWS];
+    double time[ROWS];
+    for (int k = 0; k < ROWS; k++) {
+        options->tolerance = pow(10.0, -2.0 - k);
+        if (!repeat(hull, options, k < 6 ? REPEAT : 1, &row[k], &time[k]))
+            return 0;
+    }
+    printf("%s, %zu unknowns, Fr %g, one thread\n"
+           "tolerance singular     near      far        1/r          N      waves  seconds  "
+           "error of C_w\n",
+           name, row[0].dofs, options->froude);
+    for (int k = 0; k < ROWS; k++) {
+        const igabem_cost *c = &row[k].cost;
+        printf("%9.0e %8zu %8zu %8zu %10.3g %10.3g %10.3g %8.3f  ", pow(10.0, -2.0 - k),
+               c->singular_pairs, c->near_pairs, c->far_pairs, (double)c->rankine, (double)c->local,
+               (double)c->wave, time[k]);
+        if (k + 1 < ROWS)
+            printf("%.1e\n", fabs(row[k].cw / row[ROWS - 1].cw - 1.0));
+        else
+            printf("(reference)\n");
+    }
+    return 1;
+}
+
+/* Length 1 m, 0.2 m thick, axis 0.16 m deep. */
+static igabem_hull *make_spheroid(void)
+{
+    nurbs_surface *surface = NULL;
+    igabem_hull *hull = NULL;
+    if (nurbs_make_ellipsoid(1.0, 0.2, 0.2, 0.16, &surface) != NURBS_OK ||
+        igabem_hull_create((const nurbs_surface *const *)&surface, 1, IGABEM_SYMMETRIC, &hull) !=
+            IGABEM_OK)
+        fprintf(stderr, "spheroid: %s %s\n", nurbs_last_error(), igabem_last_error());
+    nurbs_surface_free(surface);
+    return hull;
+}
+
+static int tolerance_tables(const igabem_hull *hull)
+{
+    igabem_options options;
+    igabem_options_init(&options);
+    options.threads = 1;
+    options.froude = 0.35;
+    options.elements_u = 32;
+    options.elements_v = 10;
+    if (!tolerances(hull, "DTMB 5415", &options))
+        return 0;
+    igabem_hull *spheroid = make_spheroid();
+    igabem_options_init(&options);
+    options.threads = 1;
+    options.froude = 0.6;
+    options.elements_u = 14;
+    options.elements_v = 6;
+    int done = spheroid && tolerances(spheroid, "submerged spheroid", &options);
+    igabem_hull_free(spheroid);
+    return done;
+}
+
+/* Processor time of n settings in one call. */
+static int sweep(const igabem_hull *hull, size_t n, const igabem_options *options, double *spent)
+{
+    igabem_solution *solution[32];
+    *spent = -seconds(CLOCK_PROCESS_CPUTIME_ID);
+    int failed = igabem_solve_many(hull, n, options, solution) != IGABEM_OK;
+    *spent += seconds(CLOCK_PROCESS_CPUTIME_ID);
+    for (size_t k = 0; k < n; k++)
+        igabem_solution_free(solution[k]);
+    if (failed)
+        fprintf(stderr, "%s\n", igabem_last_error());
+    return !failed;
+}
+
+static int froude_table(const igabem_hull *hull)
+{
+    static const size_t counts[] = {1, 5, 26};
+    enum { MOST = 26, REPEAT = 2 };
+    printf("Froude numbers 0.20 to 0.45   one call     each    one by one     each\n");
+    for (size_t c = 0; c < sizeof counts / sizeof counts[0]; c++) {
+        igabem_options options[MOST];
+        size_t n = counts[c];
+        double together = INFINITY, apart = INFINITY;
+        for (size_t k = 0; k < n; k++) {
+            igabem_options_init(&options[k]);
+            options[k].threads = 1;
+            options[k].elements_u = 32;
+            options[k].elements_v = 10;
+            options[k].froude = n > 1 ? 0.2 + 0.25 * (double)k / (double)(n - 1) : 0.35;
+        }
+        for (int r = 0; r < REPEAT; r++) {
+            double spent, sum = 0.0;
+            if (!sweep(hull, n, options, &spent))
+                return 0;
+            together = fmin(together, spent);
+            for (size_t k = 0; k < n; k++) {
+                if (!sweep(hull, 1, &options[k], &spent))
+                    return 0;
+                sum += spent;
+            }
+            apart = fmin(apart, sum);
+        }
+        printf("%22zu %16.3f %8.3f %13.3f %8.3f\n", n, together, together / (double)n, apart,
+               apart / (double)n);
+    }
+    return 1;
+}
+
+int main(int argc, char **argv)
+{
+    igabem_hull *hull = read_hull(EXAMPLES_DIR "/hulls/dtmb5415.json");
+    if (!hull)
+        return EXIT_FAILURE;
+    const char *mode = argc > 1 ? argv[1] : "";
+    int done = strcmp(mode, "tolerance") == 0 ? tolerance_tables(hull)
+               : strcmp(mode, "froude") == 0  ? froude_table(hull)
+                                              : growth(hull, argc, argv);
     igabem_hull_free(hull);
-    return EXIT_SUCCESS;
+    return done ? EXIT_SUCCESS : EXIT_FAILURE;
 }

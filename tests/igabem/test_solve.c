@@ -332,6 +332,40 @@ static void test_divided_hull(void)
     nurbs_surface_free(spheroid);
 }
 
+static int equal_costs(const igabem_cost *a, const igabem_cost *b)
+{
+    return a->singular_pairs == b->singular_pairs && a->near_pairs == b->near_pairs &&
+           a->far_pairs == b->far_pairs && a->rankine == b->rankine && a->local == b->local &&
+           a->wave == b->wave;
+}
+
+/* Whatever the threads the work is the same, and a smaller tolerance takes more of it. */
+static void test_cost(void)
+{
+    igabem_hull *hull = wigley_hull(0.1, 0.0625, 1, 1);
+    igabem_cost previous = {0};
+    for (int level = 0; level < 3; level++) {
+        igabem_options options = setting(6, 2);
+        options.tolerance = pow(10.0, -3.0 - 2.0 * level);
+        igabem_cost cost[2];
+        for (int k = 0; k < 2; k++) {
+            options.threads = k + 1;
+            igabem_solution *solution = solve(hull, &options);
+            igabem_forces forces = forces_of(solution);
+            cost[k] = forces.cost;
+            CU_ASSERT(cost[k].singular_pairs >= forces.dofs);
+            igabem_solution_free(solution);
+        }
+        CU_ASSERT(equal_costs(&cost[0], &cost[1]));
+        CU_ASSERT(cost[0].singular_pairs == previous.singular_pairs || level == 0);
+        CU_ASSERT(cost[0].near_pairs >= previous.near_pairs && cost[0].far_pairs > 0);
+        CU_ASSERT(cost[0].rankine > previous.rankine && cost[0].local > previous.local &&
+                  cost[0].wave > previous.wave);
+        previous = cost[0];
+    }
+    igabem_hull_free(hull);
+}
+
 static void test_threads(void)
 {
     igabem_hull *hull = wigley_hull(0.1, 0.0625, 1, 1);
@@ -410,6 +444,7 @@ static const struct check_case cases[] = {
     {"frozen options", test_freeze},
     {"hull with irregular knots", test_irregular_knots},
     {"several settings at once", test_many},
+    {"cost of the quadrature", test_cost},
     {"sensitivity to the cut-off", test_sensitivity},
     {"LU and GMRES", test_solvers},
     {"limits of the stern variant", test_stern_limits},

@@ -62,6 +62,18 @@ static void add_total(const struct solve_run *run, const igabem_forces *f, json_
         real(0.5 * run->request->options.density * f->speed * f->speed * f->wetted_area * ct));
 }
 
+static json_t *cost_json(const igabem_cost *cost)
+{
+    json_t *json = json_object();
+    json_object_set_new(json, "singular_pairs", json_integer((json_int_t)cost->singular_pairs));
+    json_object_set_new(json, "near_pairs", json_integer((json_int_t)cost->near_pairs));
+    json_object_set_new(json, "far_pairs", json_integer((json_int_t)cost->far_pairs));
+    json_object_set_new(json, "rankine", json_integer((json_int_t)cost->rankine));
+    json_object_set_new(json, "local", json_integer((json_int_t)cost->local));
+    json_object_set_new(json, "wave", json_integer((json_int_t)cost->wave));
+    return json;
+}
+
 static json_t *result_json(const struct solve_run *run, const struct solve_result *result)
 {
     const igabem_forces *f = &result->forces;
@@ -96,6 +108,7 @@ static json_t *result_json(const struct solve_run *run, const struct solve_resul
     json_object_set_new(json, "iterations", json_integer((json_int_t)f->iterations));
     json_object_set_new(json, "residual", real(f->residual));
     json_object_set_new(json, "memory", real(f->memory));
+    json_object_set_new(json, "cost", cost_json(&f->cost));
     json_object_set_new(json, "seconds", real(f->seconds));
     if (result->options.kernel == IGABEM_KERNEL_KELVIN)
         add_total(run, f, json);

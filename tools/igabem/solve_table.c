@@ -68,6 +68,12 @@ static void print_result(const struct solve_run *run, const struct solve_result 
     print_column(" %*.1e", 9, f->condition);
     printf(" %7.2f\n", f->seconds);
     print_settings(run, result);
+    if (f->cost.rankine > 0)
+        printf(
+            "  quadrature: %zu singular, %zu near, %zu far pairs; %.3g evaluations of 1/r, %.3g of "
+            "N, %.3g of waves\n",
+            f->cost.singular_pairs, f->cost.near_pairs, f->cost.far_pairs, (double)f->cost.rankine,
+            (double)f->cost.local, (double)f->cost.wave);
     if (isfinite(f->cw_cutoff_lower) || isfinite(f->cw_cutoff_upper))
         printf("  C_w at 0.85 t_c %.4e, at 1.15 t_c %.4e; %.2g %% of it from beyond t_c\n",
                f->cw_cutoff_lower, f->cw_cutoff_upper, 100.0 * f->share_beyond_cutoff);

@@ -120,6 +120,18 @@ IGABEM_API igabem_status igabem_solve_many(const igabem_hull *hull, size_t n,
                                            igabem_solution **solutions);
 IGABEM_API void igabem_solution_free(igabem_solution *solution);
 
+/** Work of the quadrature of a solve: each singular, near or far pair is a collocation point, or a
+ * mirror image of it, and an element (or a group of elements, when far); of 1/r and N together.
+ * Of what several settings share, 1/r is counted in each of them and N in the first. */
+typedef struct igabem_cost {
+    size_t singular_pairs; /**< the element contains the point */
+    size_t near_pairs;     /**< divided towards the point, or at the plane x = x_P */
+    size_t far_pairs;      /**< one of the fixed rules */
+    size_t rankine;        /**< evaluations of grad 1/r */
+    size_t local;          /**< evaluations of grad N */
+    size_t wave;           /**< plane waves at a node: nodes times wave angles */
+} igabem_cost;
+
 /** Resistance and what qualifies it. Coefficients: R / (rho U^2 S / 2), S both sides at rest. NAN
  * where a formulation has no such figure. */
 typedef struct igabem_forces {
@@ -141,9 +153,10 @@ typedef struct igabem_forces {
     size_t iterations;          /**< of GMRES; 0 with LU */
     double residual;            /**< relative, of GMRES; NAN with LU */
     double seconds;             /**< wall clock of the solve */
-    double memory; /**< bytes of its influences and matrix, what grows as dofs^2; 0 without
-                      a solve */
-    size_t dofs;   /**< unknowns on the modelled part of the hull */
+    double memory;    /**< bytes of its influences and matrix, what grows as dofs^2; 0 without
+                         a solve */
+    size_t dofs;      /**< unknowns on the modelled part of the hull */
+    igabem_cost cost; /**< of its quadrature */
 } igabem_forces;
 
 /** Fills forces. */
