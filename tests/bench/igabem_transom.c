@@ -1,13 +1,13 @@
 /* Transom hulls under the default formulation: change from mesh to mesh, spread over the cut-off
- * and over x_s, beside plain Neumann-Kelvin and the double body. Usage: igabem_bench_transom
- * [HULL.json...] (default: the three of examples/hulls) */
+ * and over x_s, with the narrow switch and with one of 0.2 L, beside plain Neumann-Kelvin and the
+ * double body. Usage: igabem_bench_transom [HULL.json...] (default: the three of examples/hulls) */
 #include <igabem/igabem.h>
 #include <math.h>
 #include <nurbs/nurbs.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { LEVELS = 3, SPEEDS = 3, SETTINGS = 12 };
+enum { LEVELS = 3, SPEEDS = 3, SETTINGS = 17 };
 
 static const int meshes[LEVELS][2] = {{24, 8}, {32, 10}, {40, 12}};
 static const double speeds[SPEEDS] = {0.28, 0.35, 0.41};
@@ -16,13 +16,17 @@ static const struct setting {
     igabem_formulation formulation;
     double cutoff_factor;
     double stern; /* times the rule, or, if negative, minus the share of the length */
+    double blend; /* 0: the default */
 } settings[SETTINGS] = {
-    {IGABEM_NEUMANN_KELVIN_STERN, 1.2, 1.0},   {IGABEM_NEUMANN_KELVIN_STERN, 0.75, 1.0},
-    {IGABEM_NEUMANN_KELVIN_STERN, 0.9, 1.0},   {IGABEM_NEUMANN_KELVIN_STERN, 1.5, 1.0},
-    {IGABEM_NEUMANN_KELVIN_STERN, 1.2, 0.8},   {IGABEM_NEUMANN_KELVIN_STERN, 1.2, 1.2},
-    {IGABEM_NEUMANN_KELVIN_STERN, 1.2, -0.28}, {IGABEM_NEUMANN_KELVIN_STERN, 1.2, -0.35},
-    {IGABEM_NEUMANN_KELVIN_STERN, 1.2, -0.42}, {IGABEM_NEUMANN_KELVIN, 1.2, 1.0},
-    {IGABEM_NEUMANN_KELVIN, 0.75, 1.0},        {IGABEM_DOUBLE_BODY_KOCHIN, 1.2, 1.0}};
+    {IGABEM_NEUMANN_KELVIN_STERN, 1.2, 1.0, 0.0},   {IGABEM_NEUMANN_KELVIN_STERN, 0.75, 1.0, 0.0},
+    {IGABEM_NEUMANN_KELVIN_STERN, 0.9, 1.0, 0.0},   {IGABEM_NEUMANN_KELVIN_STERN, 1.5, 1.0, 0.0},
+    {IGABEM_NEUMANN_KELVIN_STERN, 1.2, 0.8, 0.0},   {IGABEM_NEUMANN_KELVIN_STERN, 1.2, 1.2, 0.0},
+    {IGABEM_NEUMANN_KELVIN_STERN, 1.2, -0.28, 0.0}, {IGABEM_NEUMANN_KELVIN_STERN, 1.2, -0.35, 0.0},
+    {IGABEM_NEUMANN_KELVIN_STERN, 1.2, -0.42, 0.0}, {IGABEM_NEUMANN_KELVIN, 1.2, 1.0, 0.0},
+    {IGABEM_NEUMANN_KELVIN, 0.75, 1.0, 0.0},        {IGABEM_DOUBLE_BODY_KOCHIN, 1.2, 1.0, 0.0},
+    {IGABEM_NEUMANN_KELVIN_STERN, 1.2, 1.0, 0.2},   {IGABEM_NEUMANN_KELVIN_STERN, 0.75, 1.0, 0.2},
+    {IGABEM_NEUMANN_KELVIN_STERN, 1.5, 1.0, 0.2},   {IGABEM_NEUMANN_KELVIN_STERN, 1.2, 0.8, 0.2},
+    {IGABEM_NEUMANN_KELVIN_STERN, 1.2, 1.2, 0.2}};
 
 static igabem_hull *read_hull(const char *path)
 {
@@ -59,6 +63,8 @@ static void fill(const igabem_hull *hull, int level, igabem_options options[SPEE
         o->froude = speeds[k / SETTINGS];
         o->formulation = setting->formulation;
         o->cutoff_factor = setting->cutoff_factor;
+        if (setting->blend > 0)
+            o->stern_blend = setting->blend;
         o->elements_u = meshes[level][0];
         o->elements_v = meshes[level][1];
         igabem_options rule = *o;
@@ -105,17 +111,19 @@ static int report(const char *path)
         return 0;
     }
     printf("%s\n  Fr    C_w x 1000 at %zu, %zu, %zu unknowns  change | t_c: %%  x_s: %%  0.35 L: %%"
-           " | pressure  condition | neumann-kelvin  t_c: %%  double body\n",
+           " | pressure  condition | neumann-kelvin  t_c: %%  double body | switch 0.2 L  t_c: %%"
+           "  x_s: %%\n",
            path, forces[0][0].dofs, forces[1][0].dofs, forces[2][0].dofs);
     for (int s = 0; s < SPEEDS; s++) {
         const igabem_forces *f = &forces[LEVELS - 1][s * SETTINGS];
         printf("  %.2f", speeds[s]);
         for (int level = 0; level < LEVELS; level++)
             printf("  %.4f", 1000 * forces[level][s * SETTINGS].cw);
-        printf("  %+.1f %% | %.1f  %.1f  %.1f | %.4f  %.0e | %.4f  %.1f  %.4f\n",
+        printf("  %+.1f %% | %.1f  %.1f  %.1f | %.4f  %.0e | %.4f  %.1f  %.4f | %.4f  %.1f  %.1f\n",
                100 * (f[0].cw / forces[LEVELS - 2][s * SETTINGS].cw - 1), spread(f, 0, 1, 3),
                spread(f, 0, 4, 5), spread(f, 7, 6, 8), 1000 * f[0].cw_pressure, f[0].condition,
-               1000 * f[9].cw, spread(f, 9, 10, 10), 1000 * f[11].cw);
+               1000 * f[9].cw, spread(f, 9, 10, 10), 1000 * f[11].cw, 1000 * f[12].cw,
+               spread(f, 12, 13, 14), spread(f, 12, 15, 16));
     }
     fflush(stdout);
     return 1;

@@ -42,6 +42,7 @@ expect_code 2 "fr is missing" "$igabem" solve "$hulls/wigley.json"
 expect_code 2 "Froude number > 0" "$igabem" solve "$hulls/wigley.json" --fr -0.3
 expect_code 2 "there is no 'panels'" "$igabem" solve "$hulls/wigley.json" --fr 0.3 --formulation panels
 expect_code 2 "expected an integer" "$igabem" solve "$hulls/wigley.json" --fr 0.3 --refine 0
+expect_code 2 "stern-blend" "$igabem" solve "$hulls/wigley.json" --fr 0.3 --stern-blend -0.1
 expect_code 2 "unknown option" "$igabem" solve "$hulls/wigley.json" --fr 0.3 --speed 3
 expect_code 1 "no-such-file" "$igabem" solve "$work/no-such-file.json" --fr 0.3
 echo '{"format":"nurbs","version":1,"unit":"m","patches":[{]}' > "$work/bad.json"
@@ -102,6 +103,15 @@ check "hull file is whole" $?
 check "spectrum file" $?
 tail -1 "$work/p.svg" | grep -q "</svg>"
 check "plot is whole" $?
+"$igabem" solve "$hulls/wigley.json" --fr 0.3 --elements 8,2 --formulation neumann-kelvin-stern --stern-length 0 \
+  --stern-blend 0 --json > "$work/narrow" &&
+  "$igabem" solve "$hulls/wigley.json" --fr 0.3 --elements 8,2 --formulation neumann-kelvin-stern --stern-length 0.3 \
+    --stern-blend 0.5 --json > "$work/json"
+check "stern rows with a wide switch" $?
+expect_value stern_length 0.3 1e-12
+expect_value stern_blend 0.5 1e-12
+[ "$(grep '"cw":' "$work/narrow")" != "$(grep '"cw":' "$work/json")" ]
+check "the switch changes the result" $?
 "$igabem" solve "$hulls/spheroid.json" --fr 0.5 --elements 8,5 --ladder 3 --survey > "$work/out"
 check "ladder runs" $?
 [ "$(grep -c '%' "$work/out")" -ge 2 ]

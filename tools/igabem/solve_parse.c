@@ -43,6 +43,7 @@ static const char help[] =
     "  --x-s X             rows aft of x = X m see the double body only (neumann-kelvin-stern)\n"
     "  --stern-length F    the same as a share of the length (0.35, below Fr 0.35 times\n"
     "                      (Fr/0.35)^2)\n"
+    "  --stern-blend F     width of the switch there as a share of the length (0.014)\n"
     "  --spectrum-limit T  largest wave angle of the resistance integral (20)\n"
     "\n"
     "Hull and water:\n"
@@ -89,6 +90,7 @@ enum option_value {
     OPT_NO_LINE_TERM,
     OPT_X_S,
     OPT_STERN_LENGTH,
+    OPT_STERN_BLEND,
     OPT_SPECTRUM_LIMIT,
     OPT_LENGTH,
     OPT_LEVEL,
@@ -132,6 +134,7 @@ static const struct option options[] = {
     {"no-line-term", no_argument, NULL, OPT_NO_LINE_TERM},
     {"x-s", required_argument, NULL, OPT_X_S},
     {"stern-length", required_argument, NULL, OPT_STERN_LENGTH},
+    {"stern-blend", required_argument, NULL, OPT_STERN_BLEND},
     {"spectrum-limit", required_argument, NULL, OPT_SPECTRUM_LIMIT},
     {"length", required_argument, NULL, OPT_LENGTH},
     {"level", required_argument, NULL, OPT_LEVEL},
@@ -341,6 +344,8 @@ static int take(int opt, struct solve_request *r, bool *done)
         return anywhere(opt, &r->x_s);
     case OPT_STERN_LENGTH:
         return number(opt, 0, true, &o->stern_length);
+    case OPT_STERN_BLEND:
+        return number(opt, 0, true, &o->stern_blend);
     case OPT_SPECTRUM_LIMIT:
         return number(opt, 0, false, &o->spectrum_limit);
     case OPT_LENGTH:
