@@ -82,6 +82,8 @@ igabem_status hull_orient(struct igabem_hull *hull, const nurbs_topology *topolo
 igabem_status hull_measure(struct igabem_hull *hull);
 igabem_status hull_check(struct igabem_hull *hull);
 igabem_status hull_check_joints(const struct igabem_hull *hull, const nurbs_topology *topology);
+/* part[n]: numbers of the connected parts, below parts. */
+igabem_status hull_check_overlap(const struct igabem_hull *hull, const size_t *part, size_t parts);
 igabem_status hull_classify_edges(struct igabem_hull *hull);
 igabem_status hull_check_submergence(const struct igabem_hull *hull);
 igabem_status hull_waterline_angle(const struct igabem_hull *hull, double *nu_s);

@@ -227,6 +227,8 @@ igabem_status hull_orient(struct igabem_hull *hull, const nurbs_topology *topolo
                      : igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu patches", hull->n);
     if (!status)
         status = turn_outwards(hull, sign, part, parts);
+    if (!status)
+        status = hull_check_overlap(hull, part, parts);
     free(part);
     free(sign);
     return status;

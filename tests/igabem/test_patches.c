@@ -250,6 +250,53 @@ static void elements_are_shared(void)
     release(&body);
 }
 
+static nurbs_surface *bilinear(const double a[3], const double b[3], const double c[3],
+                               const double d[3])
+{
+    const double knots[4] = {0, 0, 1, 1};
+    double points[12];
+    nurbs_surface *surface = NULL;
+    for (int k = 0; k < 3; k++) {
+        points[k] = a[k];
+        points[3 + k] = b[k];
+        points[6 + k] = c[k];
+        points[9 + k] = d[k];
+    }
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_create((const int[]){1, 1}, (const size_t[]){2, 2}, knots,
+                                               knots, points, NULL, &surface),
+                          NURBS_OK);
+    return surface;
+}
+
+/* A box that narrows to the stem: wall, and flat bottom whose fore edge is a point. Then the wall
+ * in two triangles, of which one has an edge of no length on the waterline. The bottom has no n_y:
+ * its neighbours turn it. */
+static void triangles(void)
+{
+    const double b = 0.05, t = 0.0625, top[3] = {0, b, 0}, chine[3] = {0, b, -t},
+                 stem[3] = {1, 0, 0}, foot[3] = {1, 0, -t}, keel[3] = {0, 0, -t};
+    igabem_forces forces[2];
+    for (int k = 0; k < 2; k++) {
+        struct body body = {.n = 2};
+        body.patch[0] = bilinear(chine, keel, foot, foot);
+        body.patch[1] = k ? bilinear(top, top, chine, foot) : bilinear(top, chine, stem, foot);
+        if (k)
+            body.patch[body.n++] = bilinear(top, stem, top, foot);
+        igabem_hull_info info = info_of(&body, IGABEM_SYMMETRIC);
+        CHECK_RELATIVE(info.hydrostatics.volume, b * t, 1e-10);
+        CHECK_RELATIVE(info.hydrostatics.wetted_area, 2 * t * sqrt(1 + b * b) + b, 1e-10);
+        CHECK_RELATIVE(info.hydrostatics.waterplane_area, b, 1e-10);
+        CHECK_RELATIVE(info.hydrostatics.transom_area, 2 * b * t, 1e-10);
+        CHECK_RELATIVE(info.nu_s, b / sqrt(1 + b * b), 1e-9);
+        CU_ASSERT_EQUAL(info.transom, IGABEM_TRANSOM_OPEN);
+        igabem_options options = setting(0.35, 12, 6);
+        forces[k] = solve(hull_of(&body, IGABEM_SYMMETRIC), &options, NULL);
+        release(&body);
+    }
+    printf("\n    C_w differs by %.1e", forces[1].cw / forces[0].cw - 1);
+    CHECK_RELATIVE(forces[1].cw, forces[0].cw, 0.03);
+}
+
 static void expect_refusal(const struct body *body, unsigned flags, const char *words)
 {
     igabem_hull *hull = (igabem_hull *)1;
@@ -319,6 +366,22 @@ static void refuses_what_is_no_body(void)
     expect_refusal(&overlapping, IGABEM_SYMMETRIC, "open at");
     release(&overlapping);
     release(&lower);
+
+    /* A second body in the first one; beside it, and ahead, is another matter. */
+    for (int k = 0; k < 3; k++) {
+        struct body two = wigley(), bulb = spheroid();
+        const double small[9] = {0.2, 0, 0, 0, 0.2, 0, 0, 0, 0.2};
+        nurbs_surface *result = NULL;
+        replace(&bulb, 0, nurbs_surface_transform(bulb.patch[0], small, NULL, &result), &result);
+        cut(&two, 0, 0, 0.5);
+        two.patch[two.n++] = bulb.patch[0];
+        move(&two, 2, k == 1 ? 0.65 : 0.4, 0, k == 2 ? -0.08 : 0);
+        if (k == 0)
+            expect_refusal(&two, IGABEM_SYMMETRIC, "patch 2 reaches into the body");
+        else
+            CU_ASSERT_EQUAL(info_of(&two, IGABEM_SYMMETRIC).patches, 3);
+        release(&two);
+    }
 }
 
 #else
@@ -483,6 +546,7 @@ static const struct check_case cases[] = {
     {"exact resistance in 4 patches, 8 like 4", submerged_resistance},
     {"orientation of the patches", orientation_does_not_matter},
     {"elements shared among the patches", elements_are_shared},
+    {"triangles, a point on the waterline", triangles},
     {"refuses what is no body", refuses_what_is_no_body},
 #else
     {"knots differ across edges", knots_differ_across_edges},
