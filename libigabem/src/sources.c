@@ -155,11 +155,13 @@ static igabem_status fill_line(const igabem_solution *solution, const struct nod
     return IGABEM_OK;
 }
 
-/* The first of the planes that crosses the range of x, or NAN. */
+/* The first of the planes that crosses the range of x, or NAN. A plane along the edge of an element
+ * would cut off a piece of no width. */
 static double crossing(const struct source_rule *rule, double lower, double upper)
 {
+    double edge = 1e-9 * (upper - lower);
     for (size_t i = 0; i < rule->cuts; i++)
-        if (rule->cut[i] > lower && rule->cut[i] < upper)
+        if (rule->cut[i] > lower + edge && rule->cut[i] < upper - edge)
             return rule->cut[i];
     return NAN;
 }

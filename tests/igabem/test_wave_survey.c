@@ -55,6 +55,12 @@ static void test_shares(void)
     CHECK_CLOSE(share[0] + share[1] + share[2], 1.0, 1e-13);
     CU_ASSERT_EQUAL(igabem_wave_shares(solution, 0, NULL, share), IGABEM_OK);
     CHECK_CLOSE(share[0], 1.0, 1e-15);
+    /* limits on the edges of elements, to rounding */
+    for (int k = -2; k <= 2; k++) {
+        double edge[2] = {1.0 / 6 + k * 3e-17, -1.0 / 6 + k * 3e-17};
+        CU_ASSERT_EQUAL(igabem_wave_shares(solution, 2, edge, share), IGABEM_OK);
+        CHECK_CLOSE(share[0] + share[1] + share[2], 1.0, 1e-13);
+    }
     const double wrong[2] = {-0.1, 0.2};
     CU_ASSERT_EQUAL(igabem_wave_shares(solution, 2, wrong, share), IGABEM_ERROR_ARGUMENT);
     igabem_solution_free(solution);

@@ -81,7 +81,7 @@ int resolution_by_rule(const struct hull_input *input, int levels, igabem_option
     int parts[2] = {1, 1}, ok = extent != NULL;
     for (size_t p = 0; ok && p < n; p++)
         ok = measure(nurbs_patches_get(input->patches, p), options->degree, &extent[p]);
-    double wanted = WANTED / pow(RATIO, 2.0 * (levels - 1));
+    double wanted = levels > 1 ? WANTED / pow(RATIO, 2.0 * (levels - 2)) : WANTED;
     while (ok && unknowns(n, extent, parts) < wanted && parts[0] < MOST_PARTS &&
            parts[1] < MOST_PARTS)
         parts[lag(n, extent, parts) >= 0.0 ? 0 : 1]++;

@@ -6,9 +6,9 @@
 
 #include <igabem/igabem.h>
 
-/* Sets options->refine and refine_v so that the finest of `levels` levels of a ladder, each half as
- * fine again, has about 400 unknowns; a hull with more spans than that is left as it is. CLI_OK, or
- * CLI_FAILED after a message. */
+/* Sets options->refine and refine_v so that there are about 400 unknowns, on the last level but one
+ * of a ladder whose `levels` are each half as fine again; a hull of more spans is left as it is.
+ * CLI_OK, or CLI_FAILED after a message. */
 int resolution_by_rule(const struct hull_input *input, int levels, igabem_options *options);
 
 #endif
