@@ -10,7 +10,9 @@
 #include <string.h>
 
 enum { RESTART = 60, MOST = 300, ESTIMATES = 10 };
-static const double TOLERANCE = 1e-12, ROUGH = 1e-3;
+static const double TOLERANCE = 1e-12;
+/* For the condition estimate, which it can raise by a share of sqrt(n) times this at most. */
+static const double ROUGH = 1e-3;
 /* Half width of the band per square root of the unknowns: a few columns of a mesh. */
 static const double BAND = 2.0;
 
