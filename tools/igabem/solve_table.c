@@ -27,6 +27,12 @@ static void print_settings(const struct solve_run *run, const struct solve_resul
     const igabem_options *o = &result->options;
     const igabem_forces *f = &result->forces;
     int line = o->line_term && run->info.surface_piercing && o->formulation != IGABEM_MICHELL;
+    if (o->kernel != IGABEM_KERNEL_KELVIN) {
+        printf("  %s: no waves\n", o->kernel == IGABEM_KERNEL_RANKINE
+                                       ? "kernel rankine, unbounded water"
+                                       : "kernel double-body, rigid still water");
+        return;
+    }
     printf("  %s: line term %s", igabem_formulation_name(o->formulation), line ? "on" : "off");
     if (line)
         printf(", stem limit %.4g", o->stem_limit);
