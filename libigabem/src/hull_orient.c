@@ -191,7 +191,8 @@ static igabem_status relative_signs(const struct igabem_hull *hull, const nurbs_
 }
 
 /* A connected part closes at y = 0 and z = 0, where (0, y, z) has no normal component: outwards its
- * flux is twice the volume. */
+ * flux is twice the volume. Far below the water it closes without them, and z counts from its top:
+ * errors of quadrature grow with the depth. */
 static igabem_status turn_outwards(struct igabem_hull *hull, const int *sign, const size_t *part,
                                    size_t parts)
 {
@@ -199,10 +200,11 @@ static igabem_status turn_outwards(struct igabem_hull *hull, const int *sign, co
     if (!volume)
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu parts", parts);
     igabem_status status = IGABEM_OK;
+    double level = -hull->upper[2] > hull->upper[2] - hull->lower[2] ? hull->upper[2] : 0.0;
     for (size_t p = 0; p < hull->n && !status; p++) {
         struct patch_flux flux;
         status = find_flux(&hull->patches[p], &flux);
-        volume[part[p]] += sign[p] * flux.volume;
+        volume[part[p]] += sign[p] * (flux.volume - level * flux.normal[2]);
         area[part[p]] += flux.area;
     }
     for (size_t p = 0; p < hull->n && !status; p++) {

@@ -52,6 +52,18 @@ static nurbs_status find_topology(size_t n, const nurbs_surface *const *patches,
     return status;
 }
 
+/* The level, or the top of a body far below it: its closed parts have one volume whatever the plane
+ * that depths count from, but errors of quadrature grow with the depth. */
+static double nearest_level(size_t n, const patch_sums *sums, double level)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (size_t k = 0; k < n; k++) {
+        low = fmin(low, sums[k].low[2]);
+        high = fmax(high, sums[k].high[2]);
+    }
+    return level - high > high - low ? high : level;
+}
+
 nurbs_status outward_signs(size_t n, const nurbs_surface *const *patches, double level, int *sign)
 {
     patch_sums *sums = NULL;
@@ -68,8 +80,9 @@ nurbs_status outward_signs(size_t n, const nurbs_surface *const *patches, double
         status = nurbs_topology_orient(&topology, sign, part, &parts);
     /* The divergence theorem with (0, y, 0) and with (0, 0, z - level) gives the volume twice: on
      * y = 0 and on the level these vectors have no normal component. */
+    double drop = status == NURBS_OK ? level - nearest_level(n, sums, level) : 0;
     for (size_t k = 0; k < n && status == NURBS_OK; k++)
-        volume[part[k]] += sign[k] * (sums[k].y_ny - sums[k].depth_nz);
+        volume[part[k]] += sign[k] * (sums[k].y_ny - (sums[k].depth_nz - drop * sums[k].normal[2]));
     for (size_t k = 0; k < n && status == NURBS_OK; k++)
         sign[k] *= volume[part[k]] < 0 ? -1 : 1;
     nurbs_topology_free(&topology);
@@ -93,6 +106,9 @@ nurbs_status nurbs_transom_patches(size_t n, const nurbs_surface *const *wetted,
     patch_sums *sums = NULL;
     if (n == 0)
         return nurbs_fail(NURBS_ERROR_ARGUMENT, "no patches");
+    closes[0] = 0;
+    if (n == 1)
+        return NURBS_OK;
     nurbs_status status = sum_each(n, wetted, level, &sums);
     double aft = INFINITY;
     for (size_t k = 0; k < n && status == NURBS_OK; k++)
@@ -100,7 +116,7 @@ nurbs_status nurbs_transom_patches(size_t n, const nurbs_surface *const *wetted,
     for (size_t k = 0; k < n && status == NURBS_OK; k++) {
         const double *s = sums[k].normal;
         double size = sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
-        closes[k] = n > 1 && size > flat * sums[k].area && fabs(s[0]) > facing * size &&
+        closes[k] = size > flat * sums[k].area && fabs(s[0]) > facing * size &&
                     sums[k].high[0] < aft + stern_reach * extent_x(n, sums) &&
                     reaches_level(wetted[k], level);
     }

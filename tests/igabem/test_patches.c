@@ -144,6 +144,37 @@ static void move(struct body *body, size_t k, double dx, double dy, double dz)
     replace(body, k, nurbs_surface_transform(body->patch[k], NULL, shift, &result), &result);
 }
 
+/* Depth does not turn a body inside out. */
+static void far_below(void)
+{
+    struct body body = spheroid();
+    cut(&body, 0, 0, 0.5);
+    cut(&body, 0, 1, 0.5);
+    turn(&body);
+    for (size_t k = 0; k < body.n; k++)
+        move(&body, k, 0, 0, -1e4);
+    igabem_hull_info info = info_of(&body, IGABEM_SYMMETRIC);
+    CHECK_RELATIVE(info.hydrostatics.volume, 4.0 / 3 * pi * 0.5 / 144, 1e-8);
+    igabem_options options = setting(0.5, 4, 4);
+    options.kernel = IGABEM_KERNEL_RANKINE;
+    igabem_solution *solution = NULL;
+    igabem_hull *hull = hull_of(&body, IGABEM_SYMMETRIC);
+    CU_ASSERT_EQUAL_FATAL(igabem_solve(hull, &options, &solution), IGABEM_OK);
+    double sigma;
+    const double *u = nurbs_surface_knots(body.patch[0], 0),
+                 *v = nurbs_surface_knots(body.patch[0], 1);
+    CU_ASSERT_EQUAL(
+        igabem_source_density(
+            solution, 0, 1,
+            (const double[2]){u[0], 0.5 * (v[0] + v[nurbs_surface_size(body.patch[0], 1)])},
+            &sigma),
+        IGABEM_OK);
+    CU_ASSERT(sigma < 0); /* a sink at the stern */
+    igabem_solution_free(solution);
+    igabem_hull_free(hull);
+    release(&body);
+}
+
 static void check_spheroid(const igabem_hull_info *info)
 {
     const double a = 0.5, b = 1.0 / 12.0, e = sqrt(1 - b * b / (a * a));
@@ -543,6 +574,7 @@ static void hanging_node(void)
 static const struct check_case cases[] = {
 #ifndef PATCHES_SLOW
     {"particulars of a submerged body in 4 and 8 patches", submerged_particulars},
+    {"far below the water", far_below},
     {"exact resistance in 4 patches, 8 like 4", submerged_resistance},
     {"orientation of the patches", orientation_does_not_matter},
     {"elements shared among the patches", elements_are_shared},
