@@ -135,6 +135,8 @@ static double bracketed_root(int p, const double *coefficient, double lower, dou
     double b[ELEMENT_SIDE], d[ELEMENT_SIDE];
     double f0 = bernstein_sum(p, coefficient, lower), f1 = bernstein_sum(p, coefficient, upper);
     double rising = f1 >= f0 ? 1.0 : -1.0, s = lower + (upper - lower) * f0 / (f0 - f1);
+    if (!(s > lower && s < upper)) /* both ends zero to rounding */
+        s = 0.5 * (lower + upper);
     for (int k = 0; k < 100; k++) {
         double f = 0.0, slope = 0.0;
         bernstein(p, s, b, d);

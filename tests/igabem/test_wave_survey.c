@@ -67,6 +67,24 @@ static void test_shares(void)
     igabem_hull_free(hull);
 }
 
+/* Limits where lines of the hull run in the plane of the limit but for rounding. */
+static void test_limits_on_lines(void)
+{
+    nurbs_patches *file = NULL;
+    igabem_hull *hull = NULL;
+    CU_ASSERT_EQUAL_FATAL(nurbs_patches_read(EXAMPLES_DIR "/hulls/fast.json", &file), NURBS_OK);
+    const nurbs_surface *list[1] = {nurbs_patches_get(file, 0)};
+    CU_ASSERT_EQUAL_FATAL(igabem_hull_create(list, 1, IGABEM_SYMMETRIC, &hull), IGABEM_OK);
+    igabem_solution *solution = solve(hull, 0.3, IGABEM_HOGNER);
+    const double limit[2] = {0.66666666666666674, 0.33333333333333331};
+    double share[3] = {NAN, NAN, NAN};
+    CU_ASSERT_EQUAL(igabem_wave_shares(solution, 2, limit, share), IGABEM_OK);
+    CHECK_CLOSE(share[0] + share[1] + share[2], 1.0, 1e-12);
+    igabem_solution_free(solution);
+    igabem_hull_free(hull);
+    nurbs_patches_free(file);
+}
+
 /* Submerged: no filter, so far field and wave cut are the same integral. */
 static void test_cut_of_spheroid(void)
 {
@@ -105,6 +123,7 @@ static void test_cut_of_wigley(void)
 
 static const struct check_case cases[] = {
     {"shares of zones along the hull", test_shares},
+    {"limits on lines of the hull", test_limits_on_lines},
     {"cut beside a spheroid", test_cut_of_spheroid},
     {"cut beside a Wigley hull", test_cut_of_wigley},
 };
