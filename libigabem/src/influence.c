@@ -214,7 +214,7 @@ static igabem_status fill_regular(struct influence *influence)
         size_t most = (size_t)(SHAPE_POINTS * GAUSS_MAX) * ELEMENT_FUNCTIONS;
         double *f = malloc(most * sizeof *f);
         failed |= !f;
-#pragma omp for schedule(dynamic, 8)
+#pragma omp for schedule(dynamic, 2)
         for (size_t p = 0; p < mesh->panels; p++) {
             if (failed)
                 continue;

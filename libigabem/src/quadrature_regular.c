@@ -5,35 +5,41 @@
 #include <limits.h>
 #include <math.h>
 
-/* ln rho of the Bernstein ellipse through z > 1, or 0. */
-static double convergence(double distance, double half)
+/* Both rules try one number of points after the other: few are ever needed, and logarithms cost
+ * more than products. */
+enum { MOST_POINTS = 64 };
+
+/* rho of the Bernstein ellipse through z, 0 when z is on the length or next to it. */
+static double ellipse(double distance, double half)
 {
     double z = distance / half;
-    return z > 1.0 + 1e-3 ? log(z + sqrt(z * z - 1.0)) : 0.0;
+    return z > 1.0 + 1e-3 ? z + sqrt(z * z - 1.0) : 0.0;
 }
 
-static double basis_digits(const struct factor *factor, double rate)
+/* max(1, (share rho)^p) */
+static double basis_growth(const struct factor *factor, double rho)
 {
-    return fmax(0.0, factor->degree * (rate + log(factor->share)));
+    double product = 1.0;
+    for (int k = 0; k < factor->degree; k++)
+        product *= factor->share * rho;
+    return product > 1.0 ? product : 1.0;
 }
-
-static int whole(double n)
-{
-    return n < 1 ? 1 : n < 1e6 ? (int)ceil(n) : INT_MAX;
-}
-
-/* In both rules the part of the error that changes slowly with n takes its n from the rest. */
 
 int regular_points(double distance, double half, const struct factor *factor, double scale,
                    double tolerance)
 {
-    double rate = convergence(distance, half);
-    if (!(rate > 0))
+    double rho = ellipse(distance, half);
+    if (!(rho > 0))
         return INT_MAX;
     if (scale <= tolerance)
         return 1;
-    double digits = log(scale / tolerance) + basis_digits(factor, rate), n = 0.5 * digits / rate;
-    return whole(0.5 * (digits + log(PI * (2.0 * n + 1.0))) / rate - 0.5);
+    double decay = 1.0 / (rho * rho), error = PI * scale * basis_growth(factor, rho) / rho;
+    for (int n = 1; n <= MOST_POINTS; n++) {
+        error *= decay;
+        if (error * (2 * n + 1) <= tolerance)
+            return n;
+    }
+    return INT_MAX;
 }
 
 int shape_points(double chord, double bend, const struct factor *factor, double scale,
@@ -41,10 +47,14 @@ int shape_points(double chord, double bend, const struct factor *factor, double 
 {
     if (scale <= tolerance || !(bend > 0))
         return 1;
-    double rate = convergence(chord, 2.0 * bend);
-    if (!(rate > 0))
+    double rho = ellipse(chord, 2.0 * bend);
+    if (!(rho > 0))
         return INT_MAX;
-    double digits = log(0.7 * scale / tolerance) + basis_digits(factor, rate);
-    double n = 0.5 * digits / rate;
-    return whole(n - 0.75 * log(fmax(n, 1.0)) / rate);
+    double decay = 1.0 / (rho * rho), error = 0.7 * scale * basis_growth(factor, rho);
+    for (int n = 1; n <= MOST_POINTS; n++) {
+        error *= decay;
+        if (error <= tolerance * n * sqrt(n))
+            return n;
+    }
+    return INT_MAX;
 }

@@ -16,7 +16,8 @@ struct factor {
  * the error
  *     scale pi (2n+1) rho^{-2n-1},  rho = z + sqrt(z^2-1), z = distance/half
  * (Trefethen, Approximation Theory and Approximation Practice, chapter 19; the remainder's contour
- * shrunk onto the pole). Returns INT_MAX when the singularity is within the length. */
+ * shrunk onto the pole). Returns INT_MAX for more than 64 points, and when the singularity is
+ * within the length. */
 int regular_points(double distance, double half, const struct factor *factor, double scale,
                    double tolerance);
 

@@ -17,6 +17,7 @@
 
 /* Sources this share of the hull's length behind a point still count as ahead of it. */
 static const double SLACK = 1e-9;
+enum { BLOCK_POINTS = 8 };
 
 /* A panel or a segment of the waterline. */
 struct source {
@@ -372,26 +373,33 @@ static igabem_status record_change(const struct wave *wave, size_t index, size_t
     return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for a wave operator");
 }
 
-/* Rows of a block of consecutive points (in order of decreasing x). */
+/* Where a thread is on its march from bow to stern. */
+struct state {
+    double *moments; /* sums over the sources passed, [unknown][width] */
+    size_t next;     /* source */
+    size_t range[2]; /* of the unknowns met so far */
+};
+
+/* Rows of a block of consecutive points (in order of decreasing x), behind those of the state. */
 static igabem_status block_rows(const struct wave *wave, size_t begin, size_t end,
-                                struct wave_work *work, double *state, double *factor, double *rows)
+                                struct wave_work *work, struct state *state, double *factor,
+                                double *rows)
 {
     const struct density *density = wave->influence->density;
-    size_t next = 0, n = density->n, range[2] = {n, 0};
+    size_t n = density->n, *range = state->range;
     double slack = SLACK * wave->extent;
-    memset(state, 0, n * wave->width * sizeof *state);
     for (size_t i = begin; i < end; i++) {
         size_t point = wave->point[i];
         const double *p = density->point + 3 * point;
-        while (next < wave->sources && wave->source[next].box[0] >= p[0] - slack)
-            add_moments(wave, &wave->source[next++], state, range);
+        while (state->next < wave->sources && wave->source[state->next].box[0] >= p[0] - slack)
+            add_moments(wave, &wave->source[state->next++], state->moments, range);
         size_t angles = point_factors(wave, point, factor);
         double *out = rows + 3 * n * point;
         if (range[0] < range[1])
-            product(wave, factor, angles, state, range[0], range[1], out);
+            product(wave, factor, angles, state->moments, range[0], range[1], out);
         for (size_t f = 1; f < wave->filters && range[0] < range[1]; f++)
-            product_nearby(wave, factor + (2 + f) * wave->width, angles, state, range[0], range[1],
-                           wave->change->row[i].ahead, work->nearby + (f - 1) * n);
+            product_nearby(wave, factor + (2 + f) * wave->width, angles, state->moments, range[0],
+                           range[1], wave->change->row[i].ahead, work->nearby + (f - 1) * n);
         igabem_status status = straddling(wave, point, factor, angles, slack, work, out);
         if (status == IGABEM_OK && wave->change)
             status = record_change(wave, i, angles, factor, work->nearby);
@@ -567,20 +575,21 @@ static igabem_status make_change(struct wave *wave)
 static igabem_status march(const struct wave *wave, int threads, double *rows)
 {
     const struct density *density = wave->influence->density;
-    size_t blocks = 4 * (size_t)threads;
+    size_t blocks = wave->points / BLOCK_POINTS + 1;
     igabem_status result = IGABEM_OK;
 #pragma omp parallel num_threads(threads)
     {
         struct wave_work work = {0};
         nodes_init(&work.nodes, wave->influence->mesh);
         work.buffer = malloc(wave->width * sizeof *work.buffer);
-        double *state = malloc(density->n * wave->width * sizeof *state);
+        struct state state = {.range = {density->n, 0}};
+        state.moments = calloc(density->n * wave->width, sizeof *state.moments);
         double *factor = malloc((factor_rows(wave) + 1) * wave->width * sizeof *factor);
         work.nearby = calloc(density->n * wave->filters, sizeof *work.nearby);
         igabem_status status = IGABEM_OK;
-        if (!work.buffer || !work.nearby || !state || !factor)
+        if (!work.buffer || !work.nearby || !state.moments || !factor)
             status = igabem_fail(IGABEM_ERROR_MEMORY, "no memory for wave sums");
-#pragma omp for schedule(dynamic, 8)
+#pragma omp for schedule(dynamic, 1)
         for (size_t i = 0; i < wave->sources; i++)
             if (status == IGABEM_OK)
                 status = source_moments(wave, &wave->source[i], &work);
@@ -589,11 +598,12 @@ static igabem_status march(const struct wave *wave, int threads, double *rows)
             size_t range[2] = {0, 0};
             add_moments(wave, &wave->source[i], wave->change->moments, range);
         }
-#pragma omp for schedule(dynamic, 1)
+/* each thread's blocks come in increasing order, as its state needs them */
+#pragma omp for schedule(monotonic : dynamic, 1)
         for (size_t b = 0; b < blocks; b++)
             if (status == IGABEM_OK)
                 status = block_rows(wave, wave->points * b / blocks,
-                                    wave->points * (b + 1) / blocks, &work, state, factor, rows);
+                                    wave->points * (b + 1) / blocks, &work, &state, factor, rows);
 #pragma omp critical
         {
             influence_count(wave->influence, &work.cost);
@@ -604,7 +614,7 @@ static igabem_status march(const struct wave *wave, int threads, double *rows)
         free(work.buffer);
         free(work.f);
         free(work.nearby);
-        free(state);
+        free(state.moments);
         free(factor);
     }
     return result == IGABEM_OK ? result : igabem_fail(result, "no memory for the wave part");
