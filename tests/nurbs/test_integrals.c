@@ -157,6 +157,65 @@ static void two_patches_are_one_hull(void)
     nurbs_surface_free(turned);
 }
 
+/* A submerged body cut along and around: no patch encloses a volume by itself. */
+static void quarters_of_a_spheroid(void)
+{
+    const double a = 0.5, b = 0.1, e = sqrt(1 - b * b / (a * a));
+    nurbs_surface *body, *half[2], *part[4], *turned;
+    CU_ASSERT_EQUAL_FATAL(nurbs_make_ellipsoid(2 * a, 2 * b, 2 * b, 0.4, &body), NURBS_OK);
+    const double *u = nurbs_surface_knots(body, 0), *v = nurbs_surface_knots(body, 1);
+    double at[2] = {0.6 * u[nurbs_surface_size(body, 0)], 0.3 * v[nurbs_surface_size(body, 1)]};
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_split(body, 0, at[0], &half[0], &half[1]), NURBS_OK);
+    for (int k = 0; k < 2; k++) {
+        CU_ASSERT_EQUAL_FATAL(
+            nurbs_surface_split(half[k], 1, at[1], &part[2 * k], &part[2 * k + 1]), NURBS_OK);
+        nurbs_surface_free(half[k]);
+    }
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_swap(part[2], &turned), NURBS_OK);
+    nurbs_surface_free(part[2]);
+    part[2] = turned;
+    nurbs_hydrostatics h;
+    CU_ASSERT_EQUAL_FATAL(nurbs_hydrostatics_compute(4, (const nurbs_surface *const *)part, 0, &h),
+                          NURBS_OK);
+    CHECK_RELATIVE(h.volume, 4.0 / 3 * pi * a * b * b, 1e-10);
+    CHECK_RELATIVE(h.wetted_area, 2 * pi * (b * b + a * b * asin(e) / e), 1e-10);
+    CHECK_RELATIVE(h.centroid[2], -0.4, 1e-10);
+    CHECK_RELATIVE(h.section_area_max, pi * b * b, 1e-8);
+    CHECK_CLOSE(h.transom_area, 0, 0);
+    nurbs_surface_free(body);
+    for (int k = 0; k < 4; k++)
+        nurbs_surface_free(part[k]);
+}
+
+/* A wedge and the face at its stern, given inside out. */
+static void face_of_a_transom(void)
+{
+    const double b = 0.05, t = 0.0625, knots[4] = {0, 0, 1, 1};
+    const double points[2][12] = {{0, b, 0, 0, 0, -t, 1, 0, 0, 1, 0, -t},
+                                  {0, 0, -t, 0, 0, 0, 0, 0, -t, 0, b, 0}};
+    nurbs_surface *patch[2];
+    nurbs_hydrostatics open, closed;
+    int closes[2] = {-1, -1};
+    for (int k = 0; k < 2; k++)
+        CU_ASSERT_EQUAL_FATAL(nurbs_surface_create((const int[]){1, 1}, (const size_t[]){2, 2},
+                                                   knots, knots, points[k], NULL, &patch[k]),
+                              NURBS_OK);
+    const nurbs_surface *const *list = (const nurbs_surface *const *)patch;
+    CU_ASSERT_EQUAL(nurbs_transom_patches(2, list, 0, closes), NURBS_OK);
+    CU_ASSERT_EQUAL(closes[0], 0);
+    CU_ASSERT_EQUAL(closes[1], 1);
+    CU_ASSERT_EQUAL(nurbs_transom_patches(0, list, 0, closes), NURBS_ERROR_ARGUMENT);
+    CU_ASSERT_EQUAL_FATAL(nurbs_hydrostatics_compute(1, list, 0, &open), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_hydrostatics_compute(2, list, 0, &closed), NURBS_OK);
+    CHECK_RELATIVE(closed.volume, b * t / 2, 1e-12);
+    CHECK_RELATIVE(closed.transom_area, b * t, 1e-12);
+    CHECK_RELATIVE(open.transom_area, b * t, 1e-12);
+    CHECK_RELATIVE(closed.wetted_area, open.wetted_area, 1e-12);
+    CHECK_RELATIVE(closed.waterplane_area, b, 1e-12);
+    for (int k = 0; k < 2; k++)
+        nurbs_surface_free(patch[k]);
+}
+
 static void refuses_what_is_no_wetted_half_hull(void)
 {
     nurbs_hydrostatics h;
@@ -350,6 +409,8 @@ static const struct check_case cases[] = {
     {"sphere cut in halves", sphere_cut_in_halves},
     {"DTMB 5415 against panels", dtmb5415_against_panels},
     {"two patches are one hull", two_patches_are_one_hull},
+    {"quarters of a spheroid", quarters_of_a_spheroid},
+    {"face of a transom", face_of_a_transom},
     {"gradients of moments", gradients_of_moments},
     {"patch moments within their error", patch_moments_within_their_error},
     {"area error of folded sheets", area_error_of_folded_sheets},

@@ -230,6 +230,7 @@ static void refuses_a_moebius_strip(void)
     CU_ASSERT_EQUAL(nurbs_patches_orient(patches, 1e-9, &result, NULL), NURBS_ERROR_GEOMETRY);
     CU_ASSERT_PTR_NULL(result);
     CU_ASSERT_PTR_NOT_NULL(strstr(nurbs_last_error(), "no orientation"));
+    CU_ASSERT_PTR_NOT_NULL(strstr(nurbs_last_error(), "meet at ("));
     CU_ASSERT_EQUAL(nurbs_patches_topology(patches, 0, &t), NURBS_ERROR_ARGUMENT);
     CU_ASSERT_EQUAL(nurbs_patches_topology(patches, NAN, &t), NURBS_ERROR_ARGUMENT);
     nurbs_patches_free(patches);
