@@ -419,7 +419,7 @@ static void refuses_what_is_no_body(void)
 /* The density has other knots on either side of every edge. */
 static void knots_differ_across_edges(void)
 {
-    const int parts[4] = {5, 7, 6, 5};
+    const int parts[4] = {4, 6, 5, 5};
     struct body body = spheroid();
     cut(&body, 0, 0, 0.45);
     cut(&body, 0, 1, 0.55);
