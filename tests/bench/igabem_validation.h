@@ -32,4 +32,8 @@ void patches_section(void);
 void dtmb5415_section(const char *file);
 void hulls_section(void);
 
+/* Of a hull with a transom at three speeds: meshes, spreads over cut-off and x_s, pressure,
+ * attitude. */
+void transom_hull_table(const igabem_hull *hull);
+
 #endif

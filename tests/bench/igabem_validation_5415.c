@@ -157,6 +157,16 @@ static void formulations(const char *file)
     print_spreads(forces[LEVELS - 2], forces[LEVELS - 1]);
 }
 
+static void speeds(const char *file)
+{
+    igabem_hull *hull = hull_file(file, 1e-4);
+    printf("### Three speeds\n\nDefault formulation on the same meshes. The change is that between "
+           "the last two levels, the spreads are those of the last but\none, pressure and the rest "
+           "those of the finest.\n\n");
+    transom_hull_table(hull);
+    igabem_hull_free(hull);
+}
+
 static void froude_numbers(const char *file)
 {
     enum { N = 26, KINDS = 5 };
@@ -215,6 +225,7 @@ void dtmb5415_section(const char *file)
     igabem_hull_free(hull);
     published();
     formulations(file);
+    speeds(file);
     froude_numbers(file);
     growth(file);
 }

@@ -36,7 +36,7 @@ static double spread(const igabem_forces *forces, int first, int last)
     return 100.0 * (high / low - 1.0);
 }
 
-static void convergence(const igabem_hull *hull)
+void transom_hull_table(const igabem_hull *hull)
 {
     igabem_forces forces[LEVELS][SPEEDS * VARIANTS];
     for (int l = 0; l < LEVELS; l++) {
@@ -142,7 +142,7 @@ static void hull_report(const char *name, const char *text)
            "area %.5g, transom %.2f of the largest section, nu_s %.3f.\n\n",
            name, text, info.length, h->x_fore - h->x_aft, h->beam, h->keel_draft, h->volume,
            h->wetted_area, h->transom_area / h->section_area_max, info.nu_s);
-    convergence(hull);
+    transom_hull_table(hull);
     froude_numbers(hull);
     igabem_hull_free(hull);
 }
