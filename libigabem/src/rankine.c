@@ -60,12 +60,14 @@ static void reflect(const double p[3], const struct reflection *reflection, doub
 static igabem_status flush(struct rankine_work *work, struct nodes *nodes, const double p[3],
                            const struct reflection *reflection, double *rows, size_t stride)
 {
+    if (!nodes->failed && nodes->n == 0)
+        return IGABEM_OK;
     if (!nodes->failed && 3 * nodes->n > work->capacity) {
         free(work->k);
         work->capacity = 3 * nodes->capacity;
         work->k = malloc(work->capacity * sizeof *work->k);
     }
-    if (nodes->failed || (nodes->n && !work->k))
+    if (nodes->failed || !work->k)
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for quadrature nodes");
     work->cost.rankine += nodes->n;
     kernel_batch(p, reflection, reflection->z, nodes, work->k);

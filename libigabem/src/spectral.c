@@ -92,7 +92,7 @@ static int reserve(struct wave_work *work, size_t n)
         work->f_capacity = 2 * n;
         work->f = malloc(work->f_capacity * sizeof *work->f);
     }
-    return work->f != NULL;
+    return n == 0 || work->f != NULL;
 }
 
 /* Nodes of the part of a source ahead of x (-INFINITY: all of it). */
