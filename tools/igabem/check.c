@@ -115,11 +115,10 @@ static int print_text(const struct hull_input *input, const igabem_hull_info *in
                       const igabem_options *options, const char *path)
 {
     printf("%s is usable: %s\n", path, input->note);
-    printf("%zu patch%s, %s%s%s, L %.6g m, V %.6g m^3, S %.6g m^2\n", info->patches,
+    printf("%zu patch%s, %s, %s, L %.6g m, V %.6g m^3, S %.6g m^2\n", info->patches,
            info->patches == 1 ? "" : "es",
-           info->surface_piercing ? "surface-piercing" : "submerged", info->transom ? ", " : "",
-           hull_stern(info), info->length, info->hydrostatics.volume,
-           info->hydrostatics.wetted_area);
+           info->surface_piercing ? "surface-piercing" : "submerged", hull_stern(info),
+           info->length, info->hydrostatics.volume, info->hydrostatics.wetted_area);
     if (info->surface_piercing)
         printf("nu_s %.4g: formulation %s, t_c %.4g, stem limit %.4g\n", info->nu_s,
                igabem_formulation_name(options->formulation), options->cutoff_angle,

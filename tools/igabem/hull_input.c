@@ -283,7 +283,7 @@ const char *hull_stern(const igabem_hull_info *info)
 {
     return info->transom == IGABEM_TRANSOM_OPEN     ? "open transom"
            : info->transom == IGABEM_TRANSOM_CLOSED ? "closed transom"
-                                                    : "";
+                                                    : "no transom";
 }
 
 const char *hull_warning(const igabem_hull_info *info)

@@ -39,7 +39,7 @@ void hull_input_free(struct hull_input *input);
 /* What a user of Neumann-Kelvin results must know about the bow, "" if nothing. */
 const char *hull_warning(const igabem_hull_info *info);
 
-/* "open transom", "closed transom", or "" without one. */
+/* "open transom", "closed transom" or "no transom". */
 const char *hull_stern(const igabem_hull_info *info);
 
 #endif

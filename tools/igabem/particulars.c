@@ -198,8 +198,7 @@ int particulars_find(const struct hull_input *input, double density, double kg, 
     add_stability(p, &info, density, kg);
     add_coefficients(p, &info);
     add(p, "error", info.hydrostatics.error, "", "relative, of the integrals");
-    snprintf(p->note, sizeof p->note, "%s%s%s", input->note, info.transom ? "; " : "",
-             hull_stern(&info));
+    snprintf(p->note, sizeof p->note, "%s; %s", input->note, hull_stern(&info));
     int code = section_areas(input, p);
     if (code == CLI_OK && info.surface_piercing)
         add(p, "bulb_ratio", p->station_area[stations - 1] / info.hydrostatics.section_area_max, "",

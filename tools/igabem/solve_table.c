@@ -9,9 +9,9 @@ static void print_hull(const struct solve_run *run)
 {
     const nurbs_hydrostatics *h = &run->info.hydrostatics;
     printf("hull        %s (%s)\n", run->request->hull.path, run->input->note);
-    printf("            L %.5g m, S %.5g m^2, V %.5g m^3, %s%s%s\n", run->info.length,
+    printf("            L %.5g m, S %.5g m^2, V %.5g m^3, %s, %s\n", run->info.length,
            h->wetted_area, h->volume, run->info.surface_piercing ? "surface-piercing" : "submerged",
-           run->info.transom ? ", " : "", hull_stern(&run->info));
+           hull_stern(&run->info));
     if (run->input->simplify_bound > 0)
         printf("            simplified within %.3g m\n", run->input->simplify_bound);
 }
