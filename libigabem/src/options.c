@@ -174,3 +174,46 @@ igabem_status igabem_options_freeze(const igabem_hull *hull, igabem_options *opt
                            options->stem_limit);
     return IGABEM_OK;
 }
+
+/* Unknowns with the spans divided in so many parts along the hull and around it. */
+static double count_unknowns(const igabem_hull *hull, int least_degree, const int parts[2])
+{
+    double sum = 0.0;
+    for (size_t p = 0; p < hull->n; p++) {
+        const struct hull_patch *patch = &hull->patches[p];
+        double product = 1.0;
+        for (int d = 0; d < 2; d++) {
+            int degree = nurbs_surface_degree(patch->surface, d);
+            degree = degree > least_degree ? degree : least_degree;
+            product *= (double)patch->spans[d] * parts[hull_is_around(patch, d)] + degree;
+        }
+        sum += product;
+    }
+    return sum;
+}
+
+/* Spans may be longer than wide by the square root of their patch's ratio: the direction along is
+ * due to be divided when they are longer, in the mean over the patches. */
+static int along_is_due(const igabem_hull *hull, const int parts[2])
+{
+    double sum = 0.0;
+    for (size_t p = 0; p < hull->n; p++) {
+        const struct hull_patch *patch = &hull->patches[p];
+        int u = patch->along, v = 1 - u;
+        if (u >= 0 && patch->length[v] > 0)
+            sum += 0.5 * log(patch->length[u] / patch->length[v]) -
+                   log((double)patch->spans[u] * parts[0] / ((double)patch->spans[v] * parts[1]));
+    }
+    return sum >= 0.0;
+}
+
+void igabem_options_refine(const igabem_hull *hull, size_t unknowns, igabem_options *options)
+{
+    enum { MOST_PARTS = 64 };
+    int parts[2] = {1, 1};
+    while (count_unknowns(hull, options->degree, parts) < (double)unknowns &&
+           parts[0] < MOST_PARTS && parts[1] < MOST_PARTS)
+        parts[!along_is_due(hull, parts)]++;
+    options->refine = parts[0];
+    options->refine_v = parts[1];
+}

@@ -2,6 +2,7 @@
 #include "check.h"
 #include "hulls.h"
 
+#include <stdint.h>
 #include <string.h>
 
 static igabem_solution *solve(const igabem_hull *hull, const igabem_options *options)
@@ -439,10 +440,34 @@ static void test_refusals(void)
     igabem_hull_free(hull);
 }
 
+/* A mesh for a hull of few spans: enough unknowns, not many more, the same for either orientation
+ * of the parameters, and none for a hull that has enough. */
+static void test_refine(void)
+{
+    igabem_hull *hull = wigley_hull(0.1, 0.0625, 2, 1);
+    igabem_hull *fine = wigley_hull(0.1, 0.0625, 40, 12);
+    igabem_options options = setting(0, 0);
+    igabem_options_refine(hull, 400, &options);
+    CU_ASSERT_TRUE(2 * options.refine > options.refine_v); /* spans along, around */
+    options.formulation = IGABEM_HOGNER;
+    igabem_solution *solution = solve(hull, &options);
+    size_t dofs = forces_of(solution).dofs;
+    CU_ASSERT_TRUE(dofs >= 400 && dofs < 440);
+    igabem_solution_free(solution);
+    igabem_options_refine(fine, 400, &options);
+    CU_ASSERT_EQUAL(options.refine, 1);
+    CU_ASSERT_EQUAL(options.refine_v, 1);
+    igabem_options_refine(hull, SIZE_MAX, &options);
+    CU_ASSERT_TRUE(options.refine <= 64 && options.refine_v <= 64);
+    igabem_hull_free(hull);
+    igabem_hull_free(fine);
+}
+
 static const struct check_case cases[] = {
     {"names of formulations", test_names},
     {"frozen options", test_freeze},
     {"hull with irregular knots", test_irregular_knots},
+    {"a mesh by rule", test_refine},
     {"several settings at once", test_many},
     {"cost of the quadrature", test_cost},
     {"sensitivity to the cut-off", test_sensitivity},

@@ -4,7 +4,6 @@
 #include "cli.h"
 #include "commands.h"
 #include "equilibrium.h"
-#include "resolution.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -238,6 +237,13 @@ static void warn_of_gap(const struct solve_run *run)
     }
 }
 
+/* What a command line without a mesh gets, on the last level but one of a ladder, whose levels are
+ * half as fine again each. */
+static size_t wanted_unknowns(int levels)
+{
+    return (size_t)(400.0 / pow(1.5, levels > 1 ? 2.0 * (levels - 2) : 0.0));
+}
+
 int command_solve(int argc, char **argv)
 {
     struct solve_request request;
@@ -254,7 +260,7 @@ int command_solve(int argc, char **argv)
         igabem_hull_get_info(input.hull, &run.info);
         run.area_at_rest = run.info.hydrostatics.wetted_area;
         if (!request.resolution_given)
-            code = resolution_by_rule(&input, request.ladder, &request.options);
+            igabem_options_refine(input.hull, wanted_unknowns(request.ladder), &request.options);
         if (code == CLI_OK && request.free_to_trim)
             code = equilibrium_find(&request, &input);
     }
