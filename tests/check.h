@@ -25,6 +25,13 @@ static inline void check_close(double actual, double expected, double tol, const
 #define CHECK_RELATIVE(actual, expected, tol)                                                      \
     check_close((actual), (expected), (tol)*fabs(expected), #actual, __FILE__, __LINE__)
 
+/* Where scratch files go. */
+static inline const char *check_scratch(void)
+{
+    const char *folder = getenv("TMPDIR");
+    return folder && *folder ? folder : "/tmp";
+}
+
 struct check_case {
     const char *name;
     void (*run)(void);

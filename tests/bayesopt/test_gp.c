@@ -308,8 +308,8 @@ static void noise_modes(void)
 static void saving(void)
 {
     static const size_t groups[D] = {0, 0, 1, 1};
-    char path[128];
-    snprintf(path, sizeof path, "/tmp/bayesopt_gp_%ld.txt", (long)getpid());
+    char path[300];
+    snprintf(path, sizeof path, "%s/bayesopt_gp_%ld.txt", check_scratch(), (long)getpid());
     for (int transform = 0; transform < BAYESOPT_TRANSFORM_AUTO; transform++) {
         bayesopt_gp_options options;
         bayesopt_gp_options_init(&options);

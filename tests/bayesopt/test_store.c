@@ -25,9 +25,7 @@ static char path[256];
 
 static void fresh_path(const char *name)
 {
-    const char *folder = getenv("TMPDIR");
-    snprintf(path, sizeof path, "%s/bayesopt_%s_%ld.db", folder ? folder : "/tmp", name,
-             (long)getpid());
+    snprintf(path, sizeof path, "%s/bayesopt_%s_%ld.db", check_scratch(), name, (long)getpid());
     remove(path);
 }
 

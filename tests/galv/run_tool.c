@@ -8,9 +8,9 @@
 
 static const char *folder(void)
 {
-    static char name[64];
+    static char name[200];
     if (!*name) {
-        snprintf(name, sizeof name, "/tmp/test_galv_XXXXXX");
+        snprintf(name, sizeof name, "%s/test_galv_XXXXXX", check_scratch());
         if (!mkdtemp(name))
             abort();
     }
@@ -19,7 +19,7 @@ static const char *folder(void)
 
 const char *scratch(const char *name)
 {
-    static char path[256];
+    static char path[300];
     snprintf(path, sizeof path, "%s/%s", folder(), name);
     return path;
 }
@@ -84,7 +84,7 @@ json_t *run_json(const char *arguments)
 
 void scratch_remove_all(void)
 {
-    char command[128];
+    char command[240];
     snprintf(command, sizeof command, "rm -rf '%s'", folder());
     if (system(command) != 0)
         fprintf(stderr, "%s could not be removed\n", folder());

@@ -13,19 +13,19 @@
 enum { RUNNER_TEXT = 20000, RUNNER_ARGUMENTS = 12 };
 
 struct runner {
-    char folder[64]; /* scratch, made by runner_open */
+    char folder[120]; /* scratch, made by runner_open */
     char out[RUNNER_TEXT], err[RUNNER_TEXT];
 };
 
 static inline int runner_open(struct runner *runner)
 {
-    strcpy(runner->folder, "/tmp/hullopt_run_XXXXXX");
+    snprintf(runner->folder, sizeof runner->folder, "%s/hullopt_run_XXXXXX", check_scratch());
     return mkdtemp(runner->folder) != NULL;
 }
 
 static inline int runner_close(struct runner *runner)
 {
-    char command[100];
+    char command[160];
     snprintf(command, sizeof command, "rm -rf %s", runner->folder);
     return system(command);
 }
@@ -59,7 +59,7 @@ static inline size_t runner_read(const char *path, char *text, size_t size)
 /* Starts the command; arguments end with NULL. */
 static inline pid_t runner_start(const struct runner *runner, const char *const *arguments)
 {
-    char out[100], err[100];
+    char out[160], err[160];
     const char *argv[RUNNER_ARGUMENTS + 2] = {HULLOPT_PATH};
     for (int k = 0; k < RUNNER_ARGUMENTS && arguments[k]; k++)
         argv[k + 1] = arguments[k];
@@ -81,7 +81,7 @@ static inline pid_t runner_start(const struct runner *runner, const char *const 
 static inline int runner_wait(struct runner *runner, pid_t child)
 {
     int status = -1;
-    char path[100];
+    char path[160];
     waitpid(child, &status, 0);
     runner_path(runner, "stdout", path, sizeof path);
     runner_read(path, runner->out, sizeof runner->out);

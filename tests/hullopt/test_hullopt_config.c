@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-static char folder[] = "/tmp/hullopt_config_XXXXXX";
+static char folder[120];
 
 static void write_file(const char *name, const char *text, char *path, size_t size)
 {
@@ -243,10 +243,11 @@ static const struct check_case cases[] = {
 
 int main(void)
 {
+    snprintf(folder, sizeof folder, "%s/hullopt_config_XXXXXX", check_scratch());
     if (!mkdtemp(folder))
         return EXIT_FAILURE;
     int code = check_main("hullopt configuration", cases, sizeof cases / sizeof *cases);
-    char command[100];
+    char command[160];
     snprintf(command, sizeof command, "rm -r %s", folder);
     return system(command) == 0 ? code : EXIT_FAILURE;
 }

@@ -7,7 +7,7 @@
 #include <sqlite3.h>
 #include <stdlib.h>
 
-static char folder[] = "/tmp/hullopt_store_XXXXXX";
+static char folder[120];
 static char path[200];
 
 static struct store *fresh(const char *name)
@@ -254,10 +254,11 @@ static const struct check_case cases[] = {
 
 int main(void)
 {
+    snprintf(folder, sizeof folder, "%s/hullopt_store_XXXXXX", check_scratch());
     if (!mkdtemp(folder))
         return EXIT_FAILURE;
     int code = check_main("hullopt store", cases, sizeof cases / sizeof *cases);
-    char command[100];
+    char command[160];
     snprintf(command, sizeof command, "rm -r %s", folder);
     return system(command) == 0 ? code : EXIT_FAILURE;
 }

@@ -249,15 +249,15 @@ static void bodies_and_files(void)
     REFUSED(nurbs_patches_set_length(patches, NAN), NULL);
     REFUSED(nurbs_patches_set_length(patches, -1), NULL);
     REFUSED(nurbs_patches_set_parameters(patches, 0, 2, knots, 2, knots), NULL);
-    REFUSED(nurbs_patches_write_iges(patches, "/tmp/nothing.igs"), NULL);
+    REFUSED(nurbs_patches_write_iges(patches, "nothing.igs"), NULL);
     REFUSED(nurbs_patches_write(patches, "/nonexistent/x.json"), NULL);
-    REFUSED(nurbs_patches_write(patches, "/tmp/x.step"), NULL);
-    REFUSED(nurbs_patches_write_stl(patches, 0, "/tmp/x.stl"), NULL);
-    REFUSED(nurbs_patches_write_vtu(patches, -1, "/tmp/x.vtu"), NULL);
+    REFUSED(nurbs_patches_write(patches, "x.step"), NULL);
+    REFUSED(nurbs_patches_write_stl(patches, 0, "x.stl"), NULL);
+    REFUSED(nurbs_patches_write_vtu(patches, -1, "x.vtu"), NULL);
     REFUSED(nurbs_patches_read("/nonexistent/x.json", &read), read);
     REFUSED(nurbs_patches_read("/nonexistent/x.igs", &read), read);
     REFUSED(nurbs_patches_read("x.dwg", &read), read);
-    REFUSED(nurbs_patches_read("/tmp", &read), read);
+    REFUSED(nurbs_patches_read(".", &read), read);
     CU_ASSERT_PTR_NULL(nurbs_patches_get(patches, 0));
     nurbs_patches_free(patches);
 }
