@@ -2,7 +2,6 @@
 #include "check.h"
 #include "search_problem.h"
 
-#include <float.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
