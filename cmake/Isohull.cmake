@@ -19,30 +19,36 @@ if(ISOHULL_SANITIZE)
   target_compile_definitions(isohull_flags INTERFACE ISOHULL_NO_MULTIVERSION)
 endif()
 
-# isohull_library(NAME SUMMARY "..." [LIBRARIES targets...] [REQUIRES_PRIVATE pc names...])
+# isohull_library(NAME SUMMARY "..." [LIBRARIES targets...] [PUBLIC_LIBRARIES targets...])
 #
-# A shared library lib<NAME> from src/*.c with the public headers include/<NAME>/*.h, its soname,
-# its pkg-config file and its CMake package <NAME>.
+# A shared library lib<NAME> from the rooms of src/ with the public headers include/<NAME>/*.h, its
+# soname, its pkg-config file and its CMake package <NAME>. The sources are compiled once, as
+# <NAME>_objects; <NAME>_internal is the same as a static library that also shows what users of the
+# library cannot see, for its own tests.
 function(isohull_library name)
   cmake_parse_arguments(ARG "" "SUMMARY" "LIBRARIES;PUBLIC_LIBRARIES;REQUIRES;REQUIRES_PRIVATE"
                         ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS src/*.c)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS src/*.c)
   file(GLOB headers CONFIGURE_DEPENDS include/${name}/*.h)
   string(TOUPPER ${name} upper)
-  add_library(${name} SHARED ${sources} ${headers})
+  add_library(${name}_objects OBJECT ${sources} ${headers})
+  target_include_directories(${name}_objects PUBLIC include src)
+  target_compile_definitions(${name}_objects PRIVATE ${upper}_BUILDING
+                                                     ${upper}_VERSION_STRING="${PROJECT_VERSION}")
+  target_link_libraries(${name}_objects PRIVATE isohull_flags PUBLIC ${ARG_LIBRARIES}
+                                                                     ${ARG_PUBLIC_LIBRARIES})
+  add_library(${name} SHARED)
   add_library(${name}::${name} ALIAS ${name})
   target_include_directories(
-    ${name}
-    PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
-           $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
-    PRIVATE src)
-  target_compile_definitions(${name} PRIVATE ${upper}_BUILDING
-                                             ${upper}_VERSION_STRING="${PROJECT_VERSION}")
-  target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:isohull_flags> ${ARG_LIBRARIES}
+    ${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
+                   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:${name}_objects> ${ARG_LIBRARIES}
                                         ${MATH_LIBRARY})
   if(ARG_PUBLIC_LIBRARIES)
     target_link_libraries(${name} PUBLIC ${ARG_PUBLIC_LIBRARIES})
   endif()
+  add_library(${name}_internal STATIC EXCLUDE_FROM_ALL)
+  target_link_libraries(${name}_internal PUBLIC ${name}_objects)
   set_target_properties(${name} PROPERTIES VERSION ${PROJECT_VERSION}
                                            SOVERSION ${PROJECT_VERSION_MAJOR})
   if(NOT ISOHULL_SANITIZE)

@@ -1,6 +1,7 @@
 /* Bayesian optimisation of somebody else's simulation, which sometimes fails. The optional argument
  * names a store: interrupt the program, run it again, and it goes on where it was. */
 #include <bayesopt/bayesopt.h>
+
 #include <math.h>
 #include <stdio.h>
 

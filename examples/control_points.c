@@ -3,8 +3,9 @@
  *
  * Fails when the displaced grid is not that of the hull with its control points moved. */
 #include <galv/galv.h>
-#include <math.h>
 #include <nurbs/nurbs.h>
+
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,7 @@
 /* The Kelvin Green function and nothing else: the wave elevation on the track behind a submerged
  * source, as another hydrodynamics code would compute it. Prints x and zeta in metres. */
 #include <igabem/kelvin.h>
+
 #include <math.h>
 #include <stdio.h>
 

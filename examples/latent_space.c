@@ -2,6 +2,7 @@
  * and which parameters lie behind a latent point. */
 #include <galv/galv.h>
 #include <nurbs/nurbs.h>
+
 #include <stdio.h>
 #include <stdlib.h>
 

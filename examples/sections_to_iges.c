@@ -1,5 +1,6 @@
 /* A grid of section points becomes a light IGES hull: sections_to_iges GRID.csv HULL.igs */
 #include <nurbs/nurbs.h>
+
 #include <stdio.h>
 
 int main(int argc, char **argv)

@@ -1,11 +1,11 @@
 /* Asking: left-over points first, then new ones, all in one transaction. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "error.h"
 #include "internal.h"
 #include "store.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 /* Points of this phase already given out. */
 static size_t count_phase(const struct bayesopt *bo, bayesopt_phase phase)

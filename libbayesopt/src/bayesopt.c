@@ -1,11 +1,11 @@
 /* The optimisation object: made, freed, its budget changed. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "error.h"
 #include "internal.h"
 #include "store.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 /* Linear rows first, then the caller's values. */
 static int region_callback(void *data, size_t d, const double *u, double *value)

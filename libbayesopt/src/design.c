@@ -1,6 +1,5 @@
 /* Designs on the box: options, checks, which kind. */
 #include "design_internal.h"
-
 #include "error.h"
 
 const char *bayesopt_design_name(bayesopt_design_kind kind)

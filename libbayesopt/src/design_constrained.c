@@ -1,10 +1,10 @@
 /* Designs within a region: repair of the points that violate a constraint, then spreading. */
+#include "design_internal.h"
+#include "error.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "design_internal.h"
-#include "error.h"
 
 /* Cost of one point beside the others: its share of the energy plus, weighted, how many others sit
  * in the same one-dimensional strata (which an energy alone would let pile up on the boundary). */

@@ -2,10 +2,10 @@
 #ifndef BAYESOPT_DESIGN_INTERNAL_H
 #define BAYESOPT_DESIGN_INTERNAL_H
 
-#include <bayesopt/design.h>
-
 #include "random.h"
 #include "region.h"
+
+#include <bayesopt/design.h>
 
 void design_uniform(size_t n, size_t d, struct random_stream *stream, double *x);
 /* Latin hypercube on the strata that existing points leave free. */

@@ -1,10 +1,10 @@
 /* How well a design fills the box. */
+#include "design_internal.h"
+#include "error.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "design_internal.h"
-#include "error.h"
 
 /* Hickernell, Math. Comp. 67 (1998) 299, eq. 5.1b. */
 static double centred_discrepancy(size_t n, size_t d, const double *x)

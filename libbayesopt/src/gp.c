@@ -1,13 +1,12 @@
 /* The regression object: options, data, conditioning. */
+#include "error.h"
 #include "gp_internal.h"
+#include "kernel.h"
+#include "matrix.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "error.h"
-#include "kernel.h"
-#include "matrix.h"
 
 static const double log_2pi = 1.8378770664093454836;
 

@@ -1,13 +1,12 @@
 /* Maximum a posteriori hyper-parameters, and the choice between models. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <nlopt.h>
-
 #include "error.h"
 #include "gp_internal.h"
 #include "random.h"
+
+#include <math.h>
+#include <nlopt.h>
+#include <stdlib.h>
+#include <string.h>
 
 static const double log_2pi = 1.8378770664093454836;
 

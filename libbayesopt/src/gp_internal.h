@@ -2,9 +2,9 @@
 #ifndef BAYESOPT_GP_INTERNAL_H
 #define BAYESOPT_GP_INTERNAL_H
 
-#include <bayesopt/gp.h>
-
 #include "transform.h"
+
+#include <bayesopt/gp.h>
 
 struct bayesopt_gp {
     size_t d;

@@ -1,13 +1,13 @@
 /* A regression as a text file: numbers in hexadecimal floating point, which round-trips. */
+#include "error.h"
+#include "gp_internal.h"
+
 #include <locale.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-#include "error.h"
-#include "gp_internal.h"
 
 static void put(FILE *file, const char *key, size_t n, const double *values)
 {

@@ -1,12 +1,12 @@
 /* Posterior, its gradients, leave-one-out, and the way between modelled and caller's outputs. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "error.h"
 #include "gp_internal.h"
 #include "kernel.h"
 #include "matrix.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 enum { BLOCK = 64 };
 

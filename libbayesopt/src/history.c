@@ -1,10 +1,10 @@
 /* The points of an optimisation. */
+#include "error.h"
+#include "internal.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "error.h"
-#include "internal.h"
 
 void point_clear(struct point *point)
 {

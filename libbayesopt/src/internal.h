@@ -2,11 +2,11 @@
 #ifndef BAYESOPT_INTERNAL_H
 #define BAYESOPT_INTERNAL_H
 
-#include <bayesopt/bayesopt.h>
-
 #include "random.h"
 #include "region.h"
 #include "surrogate.h"
+
+#include <bayesopt/bayesopt.h>
 
 struct store;
 

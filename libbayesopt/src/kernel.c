@@ -1,10 +1,10 @@
 #include "kernel.h"
 
+#include "clones.h"
+
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
-
-#include "clones.h"
 
 /* exp(-s) for s >= 0 to about one unit in the last place, without branches so that loops over it
  * vectorise: 2^k by the exponent field, the rest by Taylor's series on |r| <= log(2)/2. */

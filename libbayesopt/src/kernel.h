@@ -2,9 +2,9 @@
 #ifndef BAYESOPT_KERNEL_H
 #define BAYESOPT_KERNEL_H
 
-#include <stddef.h>
-
 #include <bayesopt/gp.h>
+
+#include <stddef.h>
 
 /* For n squared scaled distances: the correlations g and, unless w is NULL, the factors
  * w = -2 dg/d(r2), so that dg/dx_j = -w (x_j - x'_j)/l_j^2 and dg/dlog l_j = w ((x_j -

@@ -1,8 +1,8 @@
 #include "label.h"
 
-#include <math.h>
-
 #include <bayesopt/acquisition.h>
+
+#include <math.h>
 
 /* The regression interpolates the labels (a simulation that failed fails again) and expects success
  * where nothing is known. A classifier that averages over its uncertainty leaves a failing region a

@@ -1,10 +1,10 @@
 /* The loop with a callback. */
+#include "error.h"
+#include "internal.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-
-#include "error.h"
-#include "internal.h"
 
 bayesopt_status bayesopt_minimise(bayesopt *bo, bayesopt_objective objective, void *data,
                                   bayesopt_progress progress, void *progress_data)

@@ -1,9 +1,9 @@
 /* What the surrogate of the objective says: predictions and its own quality. */
-#include <math.h>
-#include <stdlib.h>
-
 #include "error.h"
 #include "internal.h"
+
+#include <math.h>
+#include <stdlib.h>
 
 static bayesopt_status ensure_model(bayesopt *bo)
 {

@@ -1,17 +1,17 @@
 #include "noisy.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <bayesopt/acquisition.h>
-#include <bayesopt/design.h>
-
 #include "error.h"
 #include "gp_internal.h"
 #include "kernel.h"
 #include "matrix.h"
 #include "random.h"
+
+#include <bayesopt/acquisition.h>
+#include <bayesopt/design.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 enum { DRAWS = 16, MOST_SOBOL = 1000 };
 

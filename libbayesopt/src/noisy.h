@@ -4,10 +4,10 @@
 #ifndef BAYESOPT_NOISY_H
 #define BAYESOPT_NOISY_H
 
+#include <bayesopt/gp.h>
+
 #include <stdbool.h>
 #include <stddef.h>
-
-#include <bayesopt/gp.h>
 
 struct noisy;
 

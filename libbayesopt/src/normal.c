@@ -1,7 +1,7 @@
 /* The normal distribution's logarithms and the acquisition functions made of them. */
-#include <math.h>
-
 #include <bayesopt/acquisition.h>
+
+#include <math.h>
 
 static const double log_sqrt_2pi = 0.91893853320467274178;
 static const double sqrt_half = 0.70710678118654752440;

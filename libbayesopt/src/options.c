@@ -1,8 +1,8 @@
 /* Options of an optimisation: names, defaults, checks. */
-#include <math.h>
-
 #include "error.h"
 #include "internal.h"
+
+#include <math.h>
 
 const char *bayesopt_phase_name(bayesopt_phase phase)
 {

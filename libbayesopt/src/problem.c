@@ -1,8 +1,8 @@
 /* What is known before the first evaluation: box, constraints, counts, budget. */
+#include "internal.h"
+
 #include <math.h>
 #include <string.h>
-
-#include "internal.h"
 
 void problem_to_unit(const struct bayesopt *bo, const double *x, double *u)
 {

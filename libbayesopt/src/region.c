@@ -1,10 +1,10 @@
 #include "region.h"
 
+#include "matrix.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "matrix.h"
 
 bool region_create(struct region *region, size_t d, size_t m, bayesopt_input_constraint constraint,
                    void *data)

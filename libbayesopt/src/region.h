@@ -2,11 +2,11 @@
 #ifndef BAYESOPT_REGION_H
 #define BAYESOPT_REGION_H
 
-#include <stdbool.h>
+#include "random.h"
 
 #include <bayesopt/design.h>
 
-#include "random.h"
+#include <stdbool.h>
 
 struct region {
     size_t d, m;

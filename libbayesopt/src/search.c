@@ -1,14 +1,13 @@
 #include "search.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <nlopt.h>
-
 #include "error.h"
 #include "label.h"
 #include "noisy.h"
+
+#include <math.h>
+#include <nlopt.h>
+#include <stdlib.h>
+#include <string.h>
 
 enum { NEIGHBOURS = 200, CENTRES = 5, ASCENT_EVALUATIONS = 60 };
 

@@ -4,9 +4,9 @@
  * (Sobol, USSR Comput. Math. Math. Phys. 7 (1967) 86). The polynomials are enumerated here; the
  * first initial numbers are those of Joe and Kuo, SIAM J. Sci. Comput. 30 (2008) 2635, later ones
  * are drawn. */
-#include <stdlib.h>
-
 #include "design_internal.h"
+
+#include <stdlib.h>
 
 enum { BITS = 32, LISTED = 20, MOST_DEGREE = 7 };
 

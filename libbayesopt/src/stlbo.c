@@ -3,13 +3,13 @@
  * space filling (Audze-Eglais) and one-dimensional strata of their own, and penalises violated
  * constraints. The phases are those of Rao, Savsani and Vakharia, Computer-Aided Design 43 (2011)
  * 303. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "clones.h"
 #include "design_internal.h"
 #include "error.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 enum { LEARNERS = 10, MOST_SWEEPS = 200, QUIET_SWEEPS = 10, BLOCK = 32 };
 

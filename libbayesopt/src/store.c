@@ -1,11 +1,11 @@
 /* Reading and writing the history. Every change is one transaction with full synchronisation: a
  * process may be killed at any moment and the file holds what was promised. */
+#include "error.h"
+#include "store_internal.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "error.h"
-#include "store_internal.h"
 
 bayesopt_status store_error(const struct store *store, const char *doing)
 {

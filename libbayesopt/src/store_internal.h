@@ -2,9 +2,9 @@
 #ifndef BAYESOPT_STORE_INTERNAL_H
 #define BAYESOPT_STORE_INTERNAL_H
 
-#include <sqlite3.h>
-
 #include "store.h"
+
+#include <sqlite3.h>
 
 struct store {
     sqlite3 *db;

@@ -1,10 +1,10 @@
 /* Opening a store: a new file, the same problem again, or a refusal. */
+#include "error.h"
+#include "store_internal.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "error.h"
-#include "store_internal.h"
 
 static const double format_version = 1;
 

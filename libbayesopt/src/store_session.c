@@ -1,13 +1,13 @@
 /* Who is working on a store: sessions, and the pending points of those that are gone. */
+#include "error.h"
+#include "store_internal.h"
+
 #include <errno.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-#include "error.h"
-#include "store_internal.h"
 
 /* Start time of a process in clock ticks since boot (field 22 of /proc/PID/stat), which tells it
  * from a later one with the same number; 0 where there is no such file. */

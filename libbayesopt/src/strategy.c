@@ -1,12 +1,12 @@
 /* Which kind of step comes next, and the step. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "error.h"
 #include "internal.h"
 #include "quadratic.h"
 #include "search.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 /* How the local search stands. All of it is a function of the history. */
 struct trust {

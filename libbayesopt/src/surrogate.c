@@ -1,13 +1,13 @@
 #include "surrogate.h"
 
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
 #include "error.h"
 #include "gp_internal.h"
 #include "internal.h"
 #include "label.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 /* Numbers of a state beside its length scales. */
 enum { HEAD = 7 };

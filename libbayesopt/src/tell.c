@@ -1,12 +1,12 @@
 /* Results of points: told, failed, told from outside. */
+#include "error.h"
+#include "internal.h"
+#include "store.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "error.h"
-#include "internal.h"
-#include "store.h"
 
 static char *copy_text(const char *text)
 {

@@ -1,10 +1,10 @@
 #include "transform.h"
 
+#include <bayesopt/acquisition.h>
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <bayesopt/acquisition.h>
 
 void transform_reset(struct transform *transform)
 {

@@ -4,6 +4,7 @@
 #define GALV_EIGEN_H
 
 #include <galv/status.h>
+
 #include <stddef.h>
 #include <stdint.h>
 

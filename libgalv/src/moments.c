@@ -1,6 +1,7 @@
 #include "error.h"
 
 #include <galv/moments.h>
+
 #include <math.h>
 #include <stdlib.h>
 

@@ -1,6 +1,7 @@
 #include "random.h"
 
 #include <galv/model.h>
+
 #include <math.h>
 
 /* splitmix64 of Steele, Lea and Flood, OOPSLA 2014: the recommended filler of xoshiro's state. */

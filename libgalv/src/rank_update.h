@@ -3,6 +3,7 @@
 #define GALV_RANK_UPDATE_H
 
 #include <galv/status.h>
+
 #include <stddef.h>
 
 /* c += alpha a a^T on the lower triangle of c (n x n, column-major, ld n); a: n x k, column-major,

@@ -1,6 +1,7 @@
 #include "error.h"
 
 #include <galv/model.h>
+
 #include <math.h>
 
 /* Area of the quadrilateral a b d c by its diagonals: exact when flat, the area of the mean plane's

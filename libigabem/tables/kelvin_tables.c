@@ -1,10 +1,10 @@
-/* Writes the C source of the tables described in src/kelvin_table.h.
+/* Writes the C source of the tables described in src/kelvin/kelvin_table.h.
  *
  * N is sampled at Chebyshev nodes of large blocks (one face, one octave of r), where the polynomial
  * of degree about 20 per variable is exact to 1e-13; every cell is a part of one block. A cell
  * keeps the least total degree whose dropped Chebyshev coefficients bound the error of value and
  * gradient. */
-#include "../src/kelvin_table.h"
+#include "../src/kelvin/kelvin_table.h"
 #include "local_integral.h"
 
 #include <math.h>
@@ -233,7 +233,7 @@ static int write_source(const char *path)
         perror(path);
         return EXIT_FAILURE;
     }
-    fputs("#include \"kelvin_table.h\"\n\nconst kelvin_cell kelvin_cells[] = {\n", out);
+    fputs("#include \"kelvin/kelvin_table.h\"\n\nconst kelvin_cell kelvin_cells[] = {\n", out);
     for (int i = 0; i < KELVIN_ZONES * KELVIN_CELLS_PER_ZONE; i++)
         fprintf(out, "{%u,%u},\n", (unsigned)cells[i].offset, (unsigned)cells[i].degree);
     fputs("};\n\n_Alignas(64) const double kelvin_coefficients[] = {\n", out);

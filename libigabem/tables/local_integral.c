@@ -1,6 +1,6 @@
 #include "local_integral.h"
 
-#include "../src/kelvin_simd.h"
+#include "../src/kelvin/kelvin_simd.h"
 
 #include <complex.h>
 #include <math.h>

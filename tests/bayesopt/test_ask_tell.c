@@ -2,11 +2,11 @@
 #include "check.h"
 #include "search_problem.h"
 
+#include <bayesopt/bayesopt.h>
+
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
-
-#include <bayesopt/bayesopt.h>
 
 static void finds_a_minimum(void)
 {

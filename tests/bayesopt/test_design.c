@@ -1,10 +1,10 @@
 /* Designs of experiments: strata, balance, spread, constraints, augmentation. */
 #include "check.h"
 
+#include <bayesopt/design.h>
+
 #include <stdbool.h>
 #include <string.h>
-
-#include <bayesopt/design.h>
 
 enum { N = 60, D = 5 };
 

@@ -2,11 +2,11 @@
  * and matrices of many tiles. */
 #include "check.h"
 
+#include <bayesopt/bayesopt.h>
+
 #include <stdbool.h>
 #include <string.h>
 #include <unistd.h>
-
-#include <bayesopt/bayesopt.h>
 
 enum { N = 120, D = 4 };
 

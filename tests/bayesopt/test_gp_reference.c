@@ -2,11 +2,11 @@
  * number leaves to double precision. */
 #include "check.h"
 
-#include <stdbool.h>
-#include <string.h>
-
 #include <bayesopt/acquisition.h>
 #include <bayesopt/gp.h>
+
+#include <stdbool.h>
+#include <string.h>
 
 enum { MOST_POINTS = 64, MOST_VARIABLES = 8, MOST_LINE = 4096 };
 

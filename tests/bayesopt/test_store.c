@@ -1,15 +1,15 @@
 /* The store: what was promised is on disk, whatever happens to the process. */
 #include "check.h"
 
+#include <bayesopt/bayesopt.h>
+
 #include <signal.h>
+#include <sqlite3.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <bayesopt/bayesopt.h>
-#include <sqlite3.h>
 
 enum { D = 3, N = 30 };
 

@@ -1,13 +1,13 @@
 /* What a proposal costs: CPU time per ask at d = 15 with a hyper-parameter fit each time, its
  * growth with the data, and the peak memory of the process. */
+#include "bayesopt_functions.h"
+
 #include <bayesopt/bayesopt.h>
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/resource.h>
 #include <time.h>
-
-#include "bayesopt_functions.h"
 
 enum { D = 15, PROPOSALS = 10 };
 

@@ -4,6 +4,8 @@
  * BOBYQA (from the best point of the same design) run along.
  *
  * usage: bayesopt_regret [SEEDS [FUNCTION...]]   (default 10 seeds up to 6 variables, 5 above) */
+#include "bayesopt_functions.h"
+
 #include <bayesopt/bayesopt.h>
 
 #include <math.h>
@@ -12,8 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
-
-#include "bayesopt_functions.h"
 
 enum { MOST_VARIABLES = 16, MOST_SEEDS = 1000 };
 

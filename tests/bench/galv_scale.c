@@ -3,6 +3,7 @@
  * producing the data, peak memory, passes and the error of the leading eigenvalues against those of
  * the model. */
 #include <galv/galv.h>
+
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>

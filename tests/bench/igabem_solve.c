@@ -7,8 +7,9 @@
  * igabem_bench_solve froude      what the settings of a Froude sweep share */
 #define _POSIX_C_SOURCE 200809L
 #include <igabem/igabem.h>
-#include <math.h>
 #include <nurbs/nurbs.h>
+
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

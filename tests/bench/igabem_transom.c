@@ -2,8 +2,9 @@
  * and over x_s, with the narrow switch and with one of 0.2 L, beside plain Neumann-Kelvin and the
  * double body. Usage: igabem_bench_transom [HULL.json...] (default: the three of examples/hulls) */
 #include <igabem/igabem.h>
-#include <math.h>
 #include <nurbs/nurbs.h>
+
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -5,6 +5,7 @@
 #include "check.h"
 
 #include <nurbs/nurbs.h>
+
 #include <stdint.h>
 #include <string.h>
 #include <unistd.h>

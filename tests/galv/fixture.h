@@ -4,6 +4,7 @@
 #define TESTS_GALV_FIXTURE_H
 
 #include <galv/galv.h>
+
 #include <stdbool.h>
 #include <stddef.h>
 

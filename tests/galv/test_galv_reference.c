@@ -4,6 +4,7 @@
 #include "check.h"
 
 #include <galv/galv.h>
+
 #include <string.h>
 
 enum { N = 500, FUNCTIONS = 27, SECTIONS = 90, GIRTH = 25, POINTS = SECTIONS * GIRTH };

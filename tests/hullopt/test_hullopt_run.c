@@ -3,8 +3,9 @@
 #include "check.h"
 #include "runner.h"
 
-#include <jansson.h>
 #include <nurbs/nurbs.h>
+
+#include <jansson.h>
 #include <sys/stat.h>
 
 static struct runner runner;

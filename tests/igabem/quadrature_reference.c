@@ -1,7 +1,8 @@
 #include "quadrature_reference.h"
 
-#include <math.h>
 #include <nurbs/basis.h>
+
+#include <math.h>
 #include <stdlib.h>
 
 enum { POINTS = 10, CHOSEN_S = 1, CHOSEN_T = 2, BISECTIONS = 40 };

@@ -3,7 +3,7 @@
 #ifndef QUADRATURE_REFERENCE_H
 #define QUADRATURE_REFERENCE_H
 
-#include "cell.h"
+#include "space/cell.h"
 
 enum { PLATE_DEGREE = 3, PLATE_SIDE = PLATE_DEGREE + 1, PLATE_NET = PLATE_SIDE * PLATE_SIDE };
 

@@ -1,7 +1,7 @@
 /* The space of the density: numbering, collocation points, interpolation. */
 #include "check.h"
-#include "density.h"
 #include "hulls.h"
+#include "space/density.h"
 
 static const struct density_rule hull_basis = {.degree = 3, .refine = {1, 1}};
 static const struct density_rule own_basis = {.degree = 3, .refine = {1, 1}, .elements = {7, 4}};

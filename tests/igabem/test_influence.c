@@ -1,7 +1,7 @@
 /* Influence rows against plain integration of the Green function itself. */
 #include "check.h"
 #include "hulls.h"
-#include "influence.h"
+#include "influence/influence.h"
 
 #include <string.h>
 

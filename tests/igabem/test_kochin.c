@@ -1,7 +1,7 @@
 /* Wave amplitudes of point sources and the resistance integral against closed forms, internal sums
  * against the public ones. */
-#include "amplitude.h"
 #include "check.h"
+#include "result/amplitude.h"
 
 #include <igabem/kelvin.h>
 

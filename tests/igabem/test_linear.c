@@ -1,8 +1,9 @@
 /* GMRES alone, and the linear systems of the solver by LU and by GMRES. */
 #include "check.h"
-#include "linear.h"
+#include "solve/linear.h"
 
 #include <igabem/status.h>
+
 #include <string.h>
 
 enum { N = 40, LARGE = 150 };

@@ -1,10 +1,11 @@
 /* Counts of points for smooth kernels and shapes, and elements cut at a plane. */
 #include "check.h"
 #include "quadrature_reference.h"
-#include "quadrature_regular.h"
+#include "space/quadrature_regular.h"
+
+#include <nurbs/basis.h>
 
 #include <limits.h>
-#include <nurbs/basis.h>
 
 enum { MOST = 64 };
 

@@ -1,8 +1,8 @@
 /* Points close to an element: every element of the reference set at distances of 1e-6 to 10
  * diagonals above its inside, beside its edges and beyond its corner. */
 #include "check.h"
-#include "quadrature_near.h"
 #include "quadrature_reference.h"
+#include "space/quadrature_near.h"
 
 static struct gauss rules(void)
 {

@@ -1,9 +1,9 @@
 /* Principal values at points inside, close to the edges, on an edge and close to a corner of every
  * element of the reference set. */
 #include "check.h"
-#include "quadrature_near.h"
 #include "quadrature_reference.h"
-#include "quadrature_singular.h"
+#include "space/quadrature_near.h"
+#include "space/quadrature_singular.h"
 
 static struct gauss rules(void)
 {

@@ -2,7 +2,7 @@
  * at all angles up to the limit at once. The scale of an integral is the area. */
 #include "check.h"
 #include "quadrature_reference.h"
-#include "quadrature_wave.h"
+#include "space/quadrature_wave.h"
 
 #include <complex.h>
 

@@ -3,9 +3,9 @@
 #ifndef TESTS_NURBS_REFERENCE_H
 #define TESTS_NURBS_REFERENCE_H
 
-#include <jansson.h>
 #include <nurbs/nurbs.h>
 
+#include <jansson.h>
 #include <stdint.h>
 
 struct reference {

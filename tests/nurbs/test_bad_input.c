@@ -3,6 +3,7 @@
 #include "check.h"
 
 #include <nurbs/nurbs.h>
+
 #include <string.h>
 #include <unistd.h>
 

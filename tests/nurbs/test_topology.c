@@ -2,6 +2,7 @@
 #include "check.h"
 
 #include <nurbs/nurbs.h>
+
 #include <string.h>
 
 static nurbs_patches *start(void)

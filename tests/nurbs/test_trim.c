@@ -3,6 +3,7 @@
 #include "check.h"
 
 #include <nurbs/nurbs.h>
+
 #include <string.h>
 
 static nurbs_curve *curve(int degree, size_t n, const double *uv, const double *weights)

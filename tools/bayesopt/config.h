@@ -2,10 +2,11 @@
 #ifndef BAYESOPT_TOOL_CONFIG_H
 #define BAYESOPT_TOOL_CONFIG_H
 
-#include <bayesopt/bayesopt.h>
-#include <stdbool.h>
-
 #include "names.h"
+
+#include <bayesopt/bayesopt.h>
+
+#include <stdbool.h>
 
 /* As the file has it: numbers are text until they are checked. */
 struct config_variable {

@@ -3,6 +3,7 @@
 #include "commands.h"
 
 #include <bayesopt/design.h>
+
 #include <getopt.h>
 #include <jansson.h>
 #include <stdio.h>

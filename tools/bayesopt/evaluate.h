@@ -2,11 +2,12 @@
 #ifndef BAYESOPT_TOOL_EVALUATE_H
 #define BAYESOPT_TOOL_EVALUATE_H
 
+#include "config.h"
+
 #include <bayesopt/bayesopt.h>
+
 #include <stdbool.h>
 #include <sys/types.h>
-
-#include "config.h"
 
 struct evaluation {
     uint64_t id;

@@ -3,6 +3,7 @@
 #define BAYESOPT_TOOL_NAMES_H
 
 #include <bayesopt/bayesopt.h>
+
 #include <stdbool.h>
 #include <stddef.h>
 

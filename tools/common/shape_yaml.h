@@ -4,6 +4,7 @@
 #define TOOLS_SHAPE_YAML_H
 
 #include <galv/galv.h>
+
 #include <stdbool.h>
 #include <stddef.h>
 

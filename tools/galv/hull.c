@@ -3,8 +3,9 @@
 #include "cli.h"
 #include "hull_grid.h"
 
-#include <errno.h>
 #include <nurbs/nurbs.h>
+
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -6,6 +6,7 @@
 #include "shape_yaml.h"
 
 #include <galv/galv.h>
+
 #include <stdbool.h>
 #include <stddef.h>
 

@@ -3,6 +3,7 @@
 #define GALV_TOOL_REDUCE_H
 
 #include <galv/galv.h>
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>

@@ -5,6 +5,7 @@
 
 #include <bayesopt/bayesopt.h>
 #include <igabem/solve.h>
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>

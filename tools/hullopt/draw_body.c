@@ -1,5 +1,4 @@
 #include "drawings.h"
-
 #include "stations.h"
 #include "svg.h"
 

@@ -1,5 +1,4 @@
 #include "drawings.h"
-
 #include "outcome.h"
 #include "svg.h"
 

@@ -1,5 +1,4 @@
 #include "drawings.h"
-
 #include "svg.h"
 
 #include <math.h>

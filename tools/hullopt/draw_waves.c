@@ -1,5 +1,4 @@
 #include "drawings.h"
-
 #include "png.h"
 #include "svg.h"
 

@@ -5,6 +5,7 @@
 #define HULLOPT_LATENT_H
 
 #include <galv/galv.h>
+
 #include <stdbool.h>
 #include <stddef.h>
 

@@ -1,5 +1,4 @@
 #include "report_parts.h"
-
 #include "svg.h"
 
 #include <math.h>

@@ -1,7 +1,6 @@
 #include "entrance.h"
-#include "report_parts.h"
-
 #include "particulars.h"
+#include "report_parts.h"
 #include "svg.h"
 
 #include <math.h>

@@ -9,8 +9,9 @@
 #include "verify.h"
 #include "waves.h"
 
-#include <errno.h>
 #include <galv/galv.h>
+
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -3,6 +3,7 @@
 #define HULLOPT_STATIONS_H
 
 #include <nurbs/nurbs.h>
+
 #include <stdbool.h>
 #include <stddef.h>
 

@@ -1,6 +1,5 @@
-#include "store_internal.h"
-
 #include "cli.h"
+#include "store_internal.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,5 @@
 #include "entrance.h"
 #include "outputs.h"
-
 #include "particulars.h"
 
 #include <math.h>

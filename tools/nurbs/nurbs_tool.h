@@ -3,6 +3,7 @@
 #define NURBS_TOOL_H
 
 #include "cli.h"
+
 #include <nurbs/nurbs.h>
 
 #include <getopt.h>

@@ -1,7 +1,8 @@
 #include "ship_forms.h"
 
-#include <math.h>
 #include <nurbs/basis.h>
+
+#include <math.h>
 
 enum { DEGREE = 3, ALONG = 30, AROUND = 14 };
 

@@ -8,9 +8,9 @@
 #ifndef BAYESOPT_ACQUISITION_H
 #define BAYESOPT_ACQUISITION_H
 
-#include <stddef.h>
-
 #include <bayesopt/status.h>
+
+#include <stddef.h>
 
 #ifdef __cplusplus
 extern "C" {

@@ -23,13 +23,13 @@
 #ifndef BAYESOPT_BAYESOPT_H
 #define BAYESOPT_BAYESOPT_H
 
-#include <stdbool.h>
-#include <stdint.h>
-
 #include <bayesopt/acquisition.h>
 #include <bayesopt/design.h>
 #include <bayesopt/gp.h>
 #include <bayesopt/status.h>
+
+#include <stdbool.h>
+#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {

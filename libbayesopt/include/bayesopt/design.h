@@ -7,10 +7,10 @@
 #ifndef BAYESOPT_DESIGN_H
 #define BAYESOPT_DESIGN_H
 
+#include <bayesopt/status.h>
+
 #include <stddef.h>
 #include <stdint.h>
-
-#include <bayesopt/status.h>
 
 #ifdef __cplusplus
 extern "C" {

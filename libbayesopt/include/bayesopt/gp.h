@@ -11,11 +11,11 @@
 #ifndef BAYESOPT_GP_H
 #define BAYESOPT_GP_H
 
+#include <bayesopt/status.h>
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
-
-#include <bayesopt/status.h>
 
 #ifdef __cplusplus
 extern "C" {

@@ -10,6 +10,7 @@
 
 #include <galv/shape.h>
 #include <galv/status.h>
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>

@@ -10,6 +10,7 @@
 
 #include <galv/model.h>
 #include <galv/status.h>
+
 #include <stddef.h>
 
 #ifdef __cplusplus

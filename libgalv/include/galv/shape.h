@@ -8,6 +8,7 @@
 #define GALV_SHAPE_H
 
 #include <galv/status.h>
+
 #include <stdbool.h>
 #include <stddef.h>
 

@@ -1,5 +1,6 @@
 /* A parabola in two variables, through the installed libbayesopt. */
 #include <bayesopt/bayesopt.h>
+
 #include <stdio.h>
 
 int main(void)

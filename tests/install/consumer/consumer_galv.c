@@ -1,6 +1,7 @@
 /* Two sine functions on a row of points, through the installed libgalv: two modes carry everything.
  */
 #include <galv/galv.h>
+
 #include <math.h>
 #include <stdio.h>
 

@@ -1,6 +1,7 @@
 /* One Green function value, through the installed libigabem: the rigid-wall limit N -> -2/R far
  * away. */
 #include <igabem/igabem.h>
+
 #include <math.h>
 #include <stdio.h>
 

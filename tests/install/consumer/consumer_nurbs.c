@@ -1,6 +1,7 @@
 /* The wetted area and volume of a Wigley hull, through the installed libnurbs. */
-#include <math.h>
 #include <nurbs/nurbs.h>
+
+#include <math.h>
 #include <stdio.h>
 
 int main(void)

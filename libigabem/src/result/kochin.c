@@ -1,0 +1,85 @@
+/* The Kochin function of a solution and the wave resistance R = (rho k0^2 / 2 pi) Int |H|^2
+ * sqrt(1+t^2) dt, t over both signs (docs/theory.md, section 6). */
+#include "result/kochin.h"
+
+#include "core/error.h"
+#include "result/amplitude.h"
+#include "result/radiation.h"
+
+#include <math.h>
+
+static const double PI = 3.14159265358979323846;
+
+/* What turns the resistance integral into C_w. */
+static double coefficient(const igabem_solution *solution)
+{
+    double area = solution->info.hydrostatics.wetted_area, speed = solution->speed;
+    return solution->k0 * solution->k0 / (PI * speed * speed * area);
+}
+
+igabem_status kochin_resistance(const igabem_solution *solution, struct kochin_resistance *result)
+{
+    *result = (struct kochin_resistance){NAN, NAN, NAN, NAN};
+    if (!solution->waves)
+        return IGABEM_OK;
+    const enum radiation_cutoff cutoff[AMPLITUDE_SETS] = {RADIATION_AS_SOLVED, RADIATION_LOWER,
+                                                          RADIATION_UPPER};
+    struct sources *sources[AMPLITUDE_SETS] = {NULL, NULL, NULL};
+    const struct sources *carriers[AMPLITUDE_SETS];
+    struct amplitude_sum sum[AMPLITUDE_SETS];
+    size_t sets = solution->sigma_lower && solution->sigma_upper ? AMPLITUDE_SETS : 1;
+    double limit = radiation_limit(solution), length, beam;
+    igabem_status status = IGABEM_OK;
+    radiation_extent(solution, &length, &beam);
+    for (size_t l = 0; l < sets && !status; l++) {
+        status = radiation_sources(solution, cutoff[l], limit, 0, NULL, &sources[l]);
+        carriers[l] = sources[l];
+    }
+    if (!status)
+        status = amplitude_integrate(sets, carriers, solution->k0, length, beam, limit,
+                                     radiation_cutoff_angle(solution), sum);
+    for (size_t l = 0; l < sets; l++)
+        sources_free(sources[l]);
+    if (status)
+        return status;
+    double scale = coefficient(solution);
+    result->cw = scale * sum[0].total;
+    result->share_beyond_cutoff = sum[0].total > 0 ? sum[0].beyond / sum[0].total : 0.0;
+    if (sets == AMPLITUDE_SETS) {
+        result->cw_lower = scale * sum[1].total;
+        result->cw_upper = scale * sum[2].total;
+    }
+    return IGABEM_OK;
+}
+
+igabem_status igabem_kochin(const igabem_solution *solution, size_t n, const double *t, double *h,
+                            double *dcw)
+{
+    if (!solution || (n && (!t || !h)))
+        return igabem_fail(IGABEM_ERROR_ARGUMENT, "NULL argument of igabem_kochin");
+    if (!solution->waves)
+        return igabem_fail(IGABEM_ERROR_ARGUMENT,
+                           "this solution has no free surface, expected the Kelvin kernel");
+    double largest = 0.0;
+    for (size_t i = 0; i < n; i++) {
+        if (!isfinite(t[i]))
+            return igabem_fail(IGABEM_ERROR_ARGUMENT, "wave angle %zu is %g, expected a number", i,
+                               t[i]);
+        largest = fmax(largest, fabs(t[i]));
+    }
+    struct sources *sources;
+    igabem_status status =
+        radiation_sources(solution, RADIATION_AS_SOLVED, largest, 0, NULL, &sources);
+    if (status)
+        return status;
+    double scale = coefficient(solution);
+#pragma omp parallel for schedule(dynamic, 8)
+    for (size_t i = 0; i < n; i++) {
+        double *hi = h + 2 * i;
+        amplitude(sources, solution->k0, t[i], hi);
+        if (dcw)
+            dcw[i] = scale * (hi[0] * hi[0] + hi[1] * hi[1]) * sqrt(1.0 + t[i] * t[i]);
+    }
+    sources_free(sources);
+    return IGABEM_OK;
+}

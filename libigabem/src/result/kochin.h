@@ -1,0 +1,15 @@
+/* Wave resistance of a solution from its far field. */
+#ifndef KOCHIN_H
+#define KOCHIN_H
+
+#include "solve/solution.h"
+
+struct kochin_resistance {
+    double cw;                  /* NAN where nothing radiates */
+    double share_beyond_cutoff; /* part of cw from |t| > t_c; 0 without a cut-off */
+    double cw_lower, cw_upper;  /* with the densities of 0.85 and 1.15 t_c, NAN if not solved for */
+};
+
+igabem_status kochin_resistance(const igabem_solution *solution, struct kochin_resistance *result);
+
+#endif

@@ -1,0 +1,220 @@
+#include "core/error.h"
+#include "hull/hull.h"
+
+#include <igabem/solve.h>
+
+#include <math.h>
+#include <string.h>
+
+static const double irregular_spans = 3.0;
+static const double transom_stem_factor = 1.2, stem_factor = 2.0;
+/* x_s - x_aft: this share of the length, at lower speeds 0.45 transverse wave lengths 2 pi/k0. */
+static const double stern_share = 0.35, stern_froude = 0.35;
+
+const char *igabem_formulation_name(igabem_formulation formulation)
+{
+    switch (formulation) {
+#define IGABEM_FORMULATION_NAME(enumerator, name, text)                                            \
+    case enumerator:                                                                               \
+        return name;
+        IGABEM_FORMULATION_LIST(IGABEM_FORMULATION_NAME)
+#undef IGABEM_FORMULATION_NAME
+    }
+    return NULL;
+}
+
+int igabem_formulation_parse(const char *name, igabem_formulation *formulation)
+{
+#define IGABEM_FORMULATION_TEST(enumerator, text, line)                                            \
+    if (strcmp(name, text) == 0) {                                                                 \
+        *formulation = enumerator;                                                                 \
+        return 1;                                                                                  \
+    }
+    IGABEM_FORMULATION_LIST(IGABEM_FORMULATION_TEST)
+#undef IGABEM_FORMULATION_TEST
+    return 0;
+}
+
+void igabem_options_init(igabem_options *options)
+{
+    *options = (igabem_options){.froude = NAN,
+                                .gravity = 9.80665,
+                                .density = 1000.0,
+                                .kernel = IGABEM_KERNEL_KELVIN,
+                                .formulation = IGABEM_AUTOMATIC,
+                                .refine = 1,
+                                .elements_u = -1,
+                                .elements_v = -1,
+                                .waterline_span = 0.1,
+                                .degree = 3,
+                                .line_term = 1,
+                                .cutoff_angle = NAN,
+                                .cutoff_factor = 1.2,
+                                .stem_limit = NAN,
+                                .stern_length = NAN,
+                                .stern_blend = 0.014,
+                                .spectrum_limit = 20.0,
+                                .tolerance = 1e-5};
+}
+
+static igabem_status check_positive(const char *name, double value)
+{
+    if (value > 0 && isfinite(value))
+        return IGABEM_OK;
+    return igabem_fail(IGABEM_ERROR_ARGUMENT, "%s is %g, expected a positive number", name, value);
+}
+
+static igabem_status check_range(const char *name, double value, double lower, double upper)
+{
+    if (value >= lower && value <= upper)
+        return IGABEM_OK;
+    return igabem_fail(IGABEM_ERROR_ARGUMENT, "%s is %g, expected %g to %g", name, value, lower,
+                       upper);
+}
+
+static igabem_status check(const igabem_options *options)
+{
+    igabem_status status = IGABEM_OK;
+    if (options->kernel < IGABEM_KERNEL_KELVIN || options->kernel > IGABEM_KERNEL_RANKINE)
+        status = igabem_fail(IGABEM_ERROR_ARGUMENT, "unknown kernel %d", (int)options->kernel);
+    else if (options->solver < IGABEM_SOLVER_AUTO || options->solver > IGABEM_SOLVER_GMRES)
+        status = igabem_fail(IGABEM_ERROR_ARGUMENT, "unknown solver %d", (int)options->solver);
+    else if (!igabem_formulation_name(options->formulation))
+        status =
+            igabem_fail(IGABEM_ERROR_ARGUMENT, "unknown formulation %d", (int)options->formulation);
+    if (status == IGABEM_OK && options->kernel == IGABEM_KERNEL_KELVIN)
+        status = check_positive("Froude number", options->froude);
+    if (status == IGABEM_OK)
+        status = check_positive("gravity", options->gravity);
+    if (status == IGABEM_OK)
+        status = check_positive("density of water", options->density);
+    if (status == IGABEM_OK)
+        status = check_range("refine", options->refine, 1, 1000);
+    if (status == IGABEM_OK)
+        status = check_range("refine_v", options->refine_v, 0, 1000);
+    if (status == IGABEM_OK)
+        status = check_range("elements_u", options->elements_u, -1, 100000);
+    if (status == IGABEM_OK)
+        status = check_range("elements_v", options->elements_v, -1, 100000);
+    if (status == IGABEM_OK)
+        status = check_range("degree", options->degree, 1, 9);
+    if (status == IGABEM_OK)
+        status = check_range("waterline_span", options->waterline_span, 0.0, 0.5);
+    if (status == IGABEM_OK)
+        status = check_range("tolerance", options->tolerance, 1e-12, 1e-2);
+    if (status == IGABEM_OK && !isnan(options->stern_length))
+        status = check_range("stern_length", options->stern_length, 0.0, 1.0);
+    if (status == IGABEM_OK)
+        status = check_range("stern_blend", options->stern_blend, 0.0, 1.0);
+    if (status == IGABEM_OK)
+        status = check_positive("spectrum_limit", options->spectrum_limit);
+    if (status == IGABEM_OK)
+        status = check_positive("cutoff_factor", options->cutoff_factor);
+    return status;
+}
+
+/* Knots that are crowded in some places and far apart in others waste unknowns here and lack them
+ * there, and they move when the shape does. */
+static void choose_elements(const igabem_hull *hull, igabem_options *options)
+{
+    int *elements[2] = {&options->elements_u, &options->elements_v};
+    int own = 0;
+    for (size_t p = 0; p < hull->n; p++)
+        for (int d = 0; d < 2; d++)
+            own |= hull->patches[p].span_ratio[d] > irregular_spans;
+    for (int d = 0; d < 2; d++)
+        if (*elements[d] < 0)
+            *elements[d] = own ? (int)lround(hull->run_spans[d]) : 0;
+}
+
+/* Waves that the stern rows make and feel among themselves are shorter than the stern part if it is
+ * longer than half a wave; kept longer it takes bow waves from rows that could bear them. */
+static double stern_by_rule(const igabem_options *options)
+{
+    double ratio = options->froude / stern_froude;
+    return ratio < 1.0 ? stern_share * ratio * ratio : stern_share;
+}
+
+igabem_status igabem_options_freeze(const igabem_hull *hull, igabem_options *options)
+{
+    igabem_status status = check(options);
+    if (status != IGABEM_OK)
+        return status;
+    if (options->refine_v == 0)
+        options->refine_v = options->refine;
+    choose_elements(hull, options);
+    if (options->formulation == IGABEM_AUTOMATIC)
+        options->formulation = hull->transom && hull->surface_piercing ? IGABEM_NEUMANN_KELVIN_STERN
+                                                                       : IGABEM_NEUMANN_KELVIN;
+    if (isnan(options->stern_length))
+        options->stern_length = stern_by_rule(options);
+    options->line_term = options->line_term && hull->surface_piercing;
+    if (!hull->surface_piercing) {
+        if (isnan(options->cutoff_angle))
+            options->cutoff_angle = INFINITY;
+        if (isnan(options->stem_limit))
+            options->stem_limit = INFINITY;
+    }
+    if (isnan(options->cutoff_angle) || isnan(options->stem_limit)) {
+        if (options->kernel == IGABEM_KERNEL_KELVIN && !(hull->nu_s > 0))
+            return igabem_fail(
+                IGABEM_ERROR_GEOMETRY,
+                "the waterline has no entrance angle (nu_s = %g): state cutoff_angle "
+                "and stem_limit",
+                hull->nu_s);
+        if (isnan(options->cutoff_angle))
+            options->cutoff_angle = options->cutoff_factor / hull->nu_s;
+        if (isnan(options->stem_limit))
+            options->stem_limit = (hull->transom ? transom_stem_factor : stem_factor) * hull->nu_s;
+    }
+    if (!(options->cutoff_angle > 0))
+        return igabem_fail(IGABEM_ERROR_ARGUMENT, "cutoff_angle is %g, expected > 0 or INFINITY",
+                           options->cutoff_angle);
+    if (!(options->stem_limit > 0))
+        return igabem_fail(IGABEM_ERROR_ARGUMENT, "stem_limit is %g, expected > 0 or INFINITY",
+                           options->stem_limit);
+    return IGABEM_OK;
+}
+
+/* Unknowns with the spans divided in so many parts along the hull and around it. */
+static double count_unknowns(const igabem_hull *hull, int least_degree, const int parts[2])
+{
+    double sum = 0.0;
+    for (size_t p = 0; p < hull->n; p++) {
+        const struct hull_patch *patch = &hull->patches[p];
+        double product = 1.0;
+        for (int d = 0; d < 2; d++) {
+            int degree = nurbs_surface_degree(patch->surface, d);
+            degree = degree > least_degree ? degree : least_degree;
+            product *= (double)patch->spans[d] * parts[hull_is_around(patch, d)] + degree;
+        }
+        sum += product;
+    }
+    return sum;
+}
+
+/* Spans may be longer than wide by the square root of their patch's ratio: the direction along is
+ * due to be divided when they are longer, in the mean over the patches. */
+static int along_is_due(const igabem_hull *hull, const int parts[2])
+{
+    double sum = 0.0;
+    for (size_t p = 0; p < hull->n; p++) {
+        const struct hull_patch *patch = &hull->patches[p];
+        int u = patch->along, v = 1 - u;
+        if (u >= 0 && patch->length[v] > 0)
+            sum += 0.5 * log(patch->length[u] / patch->length[v]) -
+                   log((double)patch->spans[u] * parts[0] / ((double)patch->spans[v] * parts[1]));
+    }
+    return sum >= 0.0;
+}
+
+void igabem_options_refine(const igabem_hull *hull, size_t unknowns, igabem_options *options)
+{
+    enum { MOST_PARTS = 64 };
+    int parts[2] = {1, 1};
+    while (count_unknowns(hull, options->degree, parts) < (double)unknowns &&
+           parts[0] < MOST_PARTS && parts[1] < MOST_PARTS)
+        parts[!along_is_due(hull, parts)]++;
+    options->refine = parts[0];
+    options->refine_v = parts[1];
+}

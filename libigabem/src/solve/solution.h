@@ -1,0 +1,29 @@
+/* What a solve leaves behind; everything after it (resistance, waves, pressure) reads this. */
+#ifndef SOLUTION_H
+#define SOLUTION_H
+
+#include "space/density.h"
+
+struct igabem_solution {
+    igabem_options options; /* as used: no NAN, no automatic */
+    igabem_hull_info info;
+    double x_aft, x_fore;
+    double speed, k0; /* m/s, 1/m; without a Froude number speed 1 and k0 = 0 */
+    int waves;        /* the sources radiate waves: Kochin function and resistance exist */
+    struct density *density;
+    double *sigma;       /* [n] coefficients of the density, m/s */
+    double *velocity;    /* [3][n] coefficients of grad phi on the hull, fluid side; NULL: none */
+    double *sigma_lower; /* [n] with 0.85 of the cut-off, NULL: not asked for */
+    double *sigma_upper; /* [n] with 1.15 */
+    double condition;    /* 1-norm estimate, NAN without a solve */
+    size_t iterations;   /* of GMRES with the cut-off itself, 0 with LU */
+    double residual;     /* relative, the largest of its solves; NAN with LU */
+    struct igabem_cost cost;
+    double seconds;
+    double memory; /* bytes of influences and matrix */
+};
+
+/* chi = 1/(1 + (|nu_x|/nu_c)^4), the stem limiter of the line term. */
+double solution_stem_limiter(const igabem_options *options, double nu_x);
+
+#endif

@@ -1,0 +1,47 @@
+#include "core/error.h"
+
+#include <nurbs/io.h>
+
+#include <ctype.h>
+#include <string.h>
+
+/* Parts a knot span in files for looking. */
+enum { LOOKING_PARTS = 4 };
+
+/* Whether the path ends in `extension` (lower case, with its dot), in capitals or not. */
+static int has_extension(const char *path, const char *extension)
+{
+    size_t length = strlen(path), n = strlen(extension);
+    if (length <= n)
+        return 0;
+    for (size_t k = 0; k < n; k++)
+        if (tolower((unsigned char)path[length - n + k]) != extension[k])
+            return 0;
+    return 1;
+}
+
+nurbs_status nurbs_patches_read(const char *path, nurbs_patches **patches)
+{
+    *patches = NULL;
+    if (has_extension(path, ".json"))
+        return nurbs_patches_read_json(path, patches);
+    if (has_extension(path, ".igs") || has_extension(path, ".iges"))
+        return nurbs_patches_read_iges(path, patches, NULL, 0);
+    return nurbs_fail(NURBS_ERROR_ARGUMENT, "%s: read are .json, .igs and .iges", path);
+}
+
+nurbs_status nurbs_patches_write(const nurbs_patches *patches, const char *path)
+{
+    if (has_extension(path, ".json"))
+        return nurbs_patches_write_json(patches, path);
+    if (has_extension(path, ".igs") || has_extension(path, ".iges"))
+        return nurbs_patches_write_iges(patches, path);
+    if (has_extension(path, ".stl"))
+        return nurbs_patches_write_stl(patches, LOOKING_PARTS, path);
+    if (has_extension(path, ".vtu"))
+        return nurbs_patches_write_vtu(patches, LOOKING_PARTS, path);
+    if (has_extension(path, ".csv"))
+        return nurbs_patches_write_points(patches, path);
+    return nurbs_fail(NURBS_ERROR_ARGUMENT,
+                      "%s: written are .json, .igs, .iges, .stl, .vtu and .csv", path);
+}
