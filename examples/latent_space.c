@@ -48,11 +48,11 @@ int main(void)
     const galv_box box = {{-0.5, 0, -0.0625}, {1, 0.05, 0.125}};
     galv_shape *shape = NULL;
     galv_model *model = NULL;
-    int failed =
-        galv_shape_sine(FUNCTIONS, functions, &box, lower, upper, GALV_RECURSIVE, &shape) ||
-        galv_build(shape, (size_t)STATIONS * GIRTH, nurbs_grid_points(grid), galv_uniform(2000, 1),
-                   NULL, &model) ||
-        report(shape, model);
+    int failed = galv_shape_sine(FUNCTIONS, functions, &box, lower, upper,
+                                 GALV_COMBINATION_RECURSIVE, &shape) ||
+                 galv_build(shape, (size_t)STATIONS * GIRTH, nurbs_grid_points(grid),
+                            galv_uniform(2000, 1), NULL, &model) ||
+                 report(shape, model);
     if (failed)
         fprintf(stderr, "latent_space: %s\n", galv_last_error());
 

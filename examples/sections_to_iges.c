@@ -21,8 +21,8 @@ int main(int argc, char **argv)
     if (status == NURBS_OK)
         status = nurbs_skin(grid, &skin, &hull);
     if (status == NURBS_OK)
-        status = nurbs_surface_simplify(hull, tolerance, NURBS_KEEP_EDGES | NURBS_THRIFTY, &light,
-                                        &bound);
+        status = nurbs_surface_simplify(
+            hull, tolerance, NURBS_SIMPLIFY_KEEP_EDGES | NURBS_SIMPLIFY_THRIFTY, &light, &bound);
     if (status == NURBS_OK)
         status = nurbs_surface_write_iges(light, argv[2]);
     if (status == NURBS_OK)

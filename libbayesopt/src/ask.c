@@ -66,7 +66,7 @@ static bayesopt_status make_design(struct bayesopt *bo)
         options.seed = bo->options.seed;
         options.n_constraints = bo->region.m;
         options.constraint = bo->region.constraint;
-        options.constraint_data = bo->region.data;
+        options.constraint_user_data = bo->region.data;
         status = bayesopt_design(bo->options.initial_kind, n, d, &options, design);
         if (!status && bo->options.n_levels > 1)
             cover_first(n, d, design);

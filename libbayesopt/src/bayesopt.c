@@ -19,7 +19,7 @@ static int region_callback(void *data, size_t d, const double *u, double *value)
     }
     if (!bo->options.n_input_constraints)
         return 0;
-    return bo->options.input_constraint(bo->options.input_data, d, bo->constraint_x,
+    return bo->options.input_constraint(bo->options.input_user_data, d, bo->constraint_x,
                                         value + bo->options.n_linear);
 }
 

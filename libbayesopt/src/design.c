@@ -55,7 +55,7 @@ bayesopt_status bayesopt_design(bayesopt_design_kind kind, size_t n, size_t d,
     struct random_stream stream;
     struct region region;
     if (!region_create(&region, d, options->n_constraints, options->constraint,
-                       options->constraint_data))
+                       options->constraint_user_data))
         return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "design: out of memory");
     random_start(&stream, options->seed, STREAM_DESIGN, 0);
     bool ok = true;

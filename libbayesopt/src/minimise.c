@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 bayesopt_status bayesopt_minimise(bayesopt *bo, bayesopt_objective objective, void *data,
-                                  bayesopt_progress progress, void *progress_data)
+                                  bayesopt_progress progress, void *progress_user_data)
 {
     size_t m = bo->options.n_constraints;
     double *x = malloc((bo->d + m + 1) * sizeof *x);
@@ -26,7 +26,7 @@ bayesopt_status bayesopt_minimise(bayesopt *bo, bayesopt_objective objective, vo
         } else {
             status = bayesopt_tell(bo, id, f, m ? constraints : NULL);
         }
-        if (!status && progress && progress(progress_data, bo))
+        if (!status && progress && progress(progress_user_data, bo))
             status = bayesopt_fail(BAYESOPT_ERROR_CANCELLED, "cancelled after %zu evaluations",
                                    bo->n_points);
         if (status)

@@ -327,7 +327,7 @@ static double first(const struct field *field)
 /* The options and bounds a store was created with; arrays stay in the fields. */
 static bayesopt_status create_from_fields(const struct field *f, double budget,
                                           bayesopt_input_constraint input_constraint,
-                                          void *input_data, bayesopt **bo)
+                                          void *input_user_data, bayesopt **bo)
 {
     bayesopt_options o;
     size_t d = f[BOX_LOWER].n, *group = malloc(d * sizeof *group);
@@ -364,7 +364,7 @@ static bayesopt_status create_from_fields(const struct field *f, double budget,
     o.stop_expected_improvement = f[STOPS].values[1];
     o.n_input_constraints = (size_t)first(&f[N_INPUT_CONSTRAINTS]);
     o.input_constraint = input_constraint;
-    o.input_data = input_data;
+    o.input_user_data = input_user_data;
     bool missing = o.n_input_constraints && !input_constraint;
     size_t wanted = o.n_input_constraints;
     if (missing)
@@ -436,7 +436,7 @@ static bayesopt_status read_fields(struct store *store, struct field *fields, do
 }
 
 bayesopt_status bayesopt_open(const char *path, bayesopt_input_constraint input_constraint,
-                              void *input_data, bayesopt **out)
+                              void *input_user_data, bayesopt **out)
 {
     struct store *store;
     struct field fields[FIELDS] = {{0}};
@@ -452,7 +452,7 @@ bayesopt_status bayesopt_open(const char *path, bayesopt_input_constraint input_
     if (!status)
         status = read_fields(store, fields, &budget);
     if (!status)
-        status = create_from_fields(fields, budget, input_constraint, input_data, &bo);
+        status = create_from_fields(fields, budget, input_constraint, input_user_data, &bo);
     problem_fields_free(fields);
     sqlite3_close(store->db);
     free(store->path);

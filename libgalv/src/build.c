@@ -232,7 +232,7 @@ static galv_status run(const galv_job *job, galv_model **out)
     if (status)
         return status;
     stream.progress = options->progress;
-    stream.progress_context = options->progress_context;
+    stream.progress_user_data = options->progress_user_data;
     stream.progress_share = 0.5;
     status = galv_spectrum_find(&stream, job, method, &goal, &spectrum);
     stream.progress_done = 0.5;
@@ -296,7 +296,7 @@ typedef struct data_source {
 static galv_status data_rows(galv_source *head, size_t first, size_t count, double *rows)
 {
     const galv_data *data = ((data_source *)head)->data;
-    int refused = data->rows(data->context, first, count, rows);
+    int refused = data->rows(data->user_data, first, count, rows);
     if (refused)
         return galv_fail(GALV_ERROR_NUMERIC, "samples %zu to %zu: the data function returned %d",
                          first, first + count - 1, refused);

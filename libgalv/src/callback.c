@@ -7,14 +7,14 @@
 typedef struct callback_shape {
     galv_shape head;
     galv_displacement displace;
-    void *context;
+    void *user_data;
 } callback_shape;
 
 static galv_status callback_displace(const galv_shape *head, size_t npoints, const double *xyz,
                                      const double *x, double *d)
 {
     const callback_shape *shape = (const callback_shape *)head;
-    int refused = shape->displace(shape->context, npoints, xyz, x, d);
+    int refused = shape->displace(shape->user_data, npoints, xyz, x, d);
     if (refused)
         return galv_fail(GALV_ERROR_NUMERIC, "the displacement function returned %d", refused);
     return GALV_OK;
@@ -34,7 +34,7 @@ static const galv_shape_class concurrent_class = {.name = "callback",
                                                   .destroy = callback_destroy};
 
 galv_status galv_shape_callback(size_t n, const double *lower, const double *upper,
-                                galv_displacement displace, void *context, bool concurrent,
+                                galv_displacement displace, void *user_data, bool concurrent,
                                 galv_shape **out)
 {
     if (!displace || !out)
@@ -49,7 +49,7 @@ galv_status galv_shape_callback(size_t n, const double *lower, const double *upp
         return status;
     }
     shape->displace = displace;
-    shape->context = context;
+    shape->user_data = user_data;
     *out = &shape->head;
     return GALV_OK;
 }

@@ -15,8 +15,8 @@ galv_status galv_eigen_dense(size_t n, double *a, size_t nev, double *values, do
 /* y = A v for a block of b vectors (n x b). */
 typedef struct galv_operator {
     size_t n;
-    galv_status (*apply)(void *context, size_t b, const double *v, double *y);
-    void *context;
+    galv_status (*apply)(void *user_data, size_t b, const double *v, double *y);
+    void *user_data;
 } galv_operator;
 
 typedef struct galv_krylov {

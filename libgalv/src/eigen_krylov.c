@@ -154,7 +154,7 @@ static galv_status lanczos_step(lanczos *l, size_t *coupled)
 {
     size_t n = l->n, width = l->width, columns = l->applied + width;
     double *block = l->v + l->applied * n;
-    galv_status status = l->a->apply(l->a->context, width, block, l->w);
+    galv_status status = l->a->apply(l->a->user_data, width, block, l->w);
     if (status)
         return status;
     for (size_t c = 0; c < width; c++) {

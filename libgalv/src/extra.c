@@ -28,9 +28,9 @@ galv_status galv_extra_change(const galv_extra *extra, size_t npoints, const dou
         moved[i] = xyz[i] + d[i];
     int refused = 0;
     if (!status)
-        refused = extra->evaluate(extra->context, npoints, xyz, parent);
+        refused = extra->evaluate(extra->user_data, npoints, xyz, parent);
     if (!status && !refused)
-        refused = extra->evaluate(extra->context, npoints, moved, values);
+        refused = extra->evaluate(extra->user_data, npoints, moved, values);
     if (refused)
         status = galv_fail(GALV_ERROR_NUMERIC, "the appended quantities gave %d", refused);
     for (size_t i = 0; i < extra->count && !status; i++) {

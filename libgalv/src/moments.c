@@ -138,9 +138,9 @@ galv_status galv_section_moments(size_t n, const double *points, unsigned order,
     return GALV_OK;
 }
 
-static int evaluate(void *context, size_t npoints, const double *xyz, double *values)
+static int evaluate(void *user_data, size_t npoints, const double *xyz, double *values)
 {
-    const galv_moment_set *set = context;
+    const galv_moment_set *set = user_data;
     if (npoints != set->sections * set->girth)
         return 1;
     if (galv_moments(set->sections, set->girth, xyz, set->order, values))
@@ -161,5 +161,5 @@ galv_extra galv_moments_extra(galv_moment_set *set)
     if (set->section_stride && set->section_first < set->sections)
         count += (1 + (set->sections - 1 - set->section_first) / set->section_stride) *
                  section_count(set->section_order);
-    return (galv_extra){.count = count, .evaluate = evaluate, .context = set, .concurrent = true};
+    return (galv_extra){.count = count, .evaluate = evaluate, .user_data = set, .concurrent = true};
 }

@@ -26,9 +26,9 @@ typedef struct pass {
     double *t;     /* block x b, padded */
 } pass;
 
-static galv_status covariance_apply(void *context, size_t b, const double *v, double *y)
+static galv_status covariance_apply(void *user_data, size_t b, const double *v, double *y)
 {
-    pass *p = context;
+    pass *p = user_data;
     galv_stream *stream = p->stream;
     size_t samples = stream->source->samples, n = p->spectrum->active;
     galv_pad(n, b, v, p->v);
@@ -95,7 +95,7 @@ static galv_status iterate(galv_stream *stream, const galv_goal *goal, size_t ne
                            const double *start, galv_spectrum *spectrum)
 {
     pass p = {.stream = stream, .spectrum = spectrum, .centre = goal->centre};
-    galv_operator op = {.n = spectrum->active, .apply = covariance_apply, .context = &p};
+    galv_operator op = {.n = spectrum->active, .apply = covariance_apply, .user_data = &p};
     galv_krylov run = {.nev = nev,
                        .block = b,
                        .basis = nev + 4 * b,

@@ -41,7 +41,7 @@ static galv_status evaluate_extra(const galv_extra *extra, size_t npoints, const
                                   double *values)
 {
     size_t evaluated = extra->count - extra->given;
-    int refused = evaluated ? extra->evaluate(extra->context, npoints, moved, values) : 0;
+    int refused = evaluated ? extra->evaluate(extra->user_data, npoints, moved, values) : 0;
     if (refused)
         return galv_fail(GALV_ERROR_NUMERIC, "the appended quantities gave %d", refused);
     for (size_t i = 0; i < evaluated; i++)

@@ -283,7 +283,7 @@ galv_status galv_shape_sine(size_t n, const galv_sine *functions, const galv_box
 {
     if (!functions || !box || !out)
         return galv_fail(GALV_ERROR_ARGUMENT, "functions and box must be given");
-    if (combination != GALV_LINEAR && combination != GALV_RECURSIVE)
+    if (combination != GALV_COMBINATION_LINEAR && combination != GALV_COMBINATION_RECURSIVE)
         return galv_fail(GALV_ERROR_ARGUMENT, "combination %d is neither linear nor recursive",
                          (int)combination);
     galv_status status = check_box(box);
@@ -294,7 +294,7 @@ galv_status galv_shape_sine(size_t n, const galv_sine *functions, const galv_box
     sine_shape *shape = calloc(1, sizeof *shape + n * sizeof *shape->steps);
     if (!shape)
         return galv_fail(GALV_ERROR_MEMORY, "shape of %zu functions", n);
-    bool recursive = combination == GALV_RECURSIVE;
+    bool recursive = combination == GALV_COMBINATION_RECURSIVE;
     status = galv_shape_start(&shape->head, recursive ? &recursive_class : &linear_class, n, lower,
                               upper);
     if (status) {

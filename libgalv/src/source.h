@@ -58,7 +58,7 @@ typedef struct galv_stream {
     const double *rows;  /* what readers use: packed, or raw when that is the same */
     double *energy;      /* per row of the block, squared norm of `rows` */
     galv_progress progress;
-    void *progress_context;
+    void *progress_user_data;
     double progress_done, progress_share;
 } galv_stream;
 

@@ -84,9 +84,9 @@ typedef struct matrix {
     double *v, *y;   /* n x KRYLOV_BLOCK, padded */
 } matrix;
 
-static galv_status matrix_apply(void *context, size_t b, const double *v, double *y)
+static galv_status matrix_apply(void *user_data, size_t b, const double *v, double *y)
 {
-    const matrix *m = context;
+    const matrix *m = user_data;
     galv_pad(m->n, b, v, m->v);
     galv_rows_times(m->n, m->n, 1, m->a, b, m->v, m->y);
     galv_unpad(m->n, b, m->y, y);
@@ -146,7 +146,7 @@ static galv_status solve_krylov(size_t n, double *a, size_t nev, uint64_t seed, 
 {
     size_t room = n * galv_padded(KRYLOV_BLOCK) * sizeof(double);
     matrix m = {.n = n, .a = a, .v = malloc(room), .y = malloc(room)};
-    galv_operator op = {.n = n, .apply = matrix_apply, .context = &m};
+    galv_operator op = {.n = n, .apply = matrix_apply, .user_data = &m};
     galv_krylov run = {.nev = nev,
                        .block = KRYLOV_BLOCK,
                        .basis = 3 * nev + 8 * KRYLOV_BLOCK,

@@ -176,7 +176,7 @@ galv_status galv_stream_report(galv_stream *stream, size_t done)
         return GALV_OK;
     double part = (double)done / (double)stream->source->samples;
     double fraction = stream->progress_done + stream->progress_share * part;
-    if (stream->progress(stream->progress_context, fmin(fraction, 1)))
+    if (stream->progress(stream->progress_user_data, fmin(fraction, 1)))
         return galv_fail(GALV_ERROR_CANCELLED, "cancelled after %zu of %zu samples", done,
                          stream->source->samples);
     return GALV_OK;

@@ -194,7 +194,7 @@ static void input_constraints(void)
     options.max_evaluations = 50;
     options.n_input_constraints = 2;
     options.input_constraint = slab;
-    options.input_data = &calls;
+    options.input_user_data = &calls;
     options.n_linear = 1;
     options.linear_a = a;
     options.linear_b = b;

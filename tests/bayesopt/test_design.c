@@ -129,7 +129,7 @@ static void infeasible(void)
     options.n_constraints = 1;
     options.constraint = hopeless;
     for (int kind = 0; kind <= BAYESOPT_DESIGN_STLBO; kind++) {
-        options.constraint_data = kind % 2 ? &marker : NULL;
+        options.constraint_user_data = kind % 2 ? &marker : NULL;
         CU_ASSERT_EQUAL(bayesopt_design((bayesopt_design_kind)kind, 2, 2, &options, x),
                         BAYESOPT_ERROR_INFEASIBLE);
     }

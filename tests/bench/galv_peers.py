@@ -26,14 +26,14 @@ METHODS = ["auto", "covariance", "gram", "randomised", "factored"]
 
 class Data(ctypes.Structure):
     _fields_ = [("count", ctypes.c_size_t), ("coordinates", ctypes.c_size_t), ("rows", ctypes.c_void_p),
-                ("context", ctypes.c_void_p), ("weights", ctypes.c_void_p), ("values", ctypes.c_void_p)]
+                ("user_data", ctypes.c_void_p), ("weights", ctypes.c_void_p), ("values", ctypes.c_void_p)]
 
 
 class Options(ctypes.Structure):
     _fields_ = [("variance", ctypes.c_double), ("modes", ctypes.c_size_t), ("spectrum", ctypes.c_size_t),
                 ("centre", ctypes.c_bool), ("method", ctypes.c_int), ("weights", ctypes.c_void_p),
                 ("extra", ctypes.c_void_p), ("workspace", ctypes.c_size_t), ("seed", ctypes.c_uint64),
-                ("progress", ctypes.c_void_p), ("progress_context", ctypes.c_void_p)]
+                ("progress", ctypes.c_void_p), ("progress_user_data", ctypes.c_void_p)]
 
 
 class Library:

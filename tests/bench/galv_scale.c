@@ -93,9 +93,9 @@ static void coefficients(uint32_t sample, double c[RANK])
         c[k] = scale * uniform(hash(hash(sample) + (uint32_t)k));
 }
 
-static int make_rows(void *context, size_t first, size_t count, double *rows)
+static int make_rows(void *user_data, size_t first, size_t count, double *rows)
 {
-    struct low_rank *data = context;
+    struct low_rank *data = user_data;
     size_t length = data->length;
     double wall = seconds(), processor = processor_seconds();
 #pragma omp parallel for schedule(static)
@@ -129,12 +129,13 @@ int main(int argc, char **argv)
     size_t count = strtoull(argv[1], NULL, 10), length = strtoull(argv[2], NULL, 10);
     if (count == 0 || length < 2 * RANK)
         return 2;
-    struct low_rank context = {.length = length, .factor = malloc(RANK * length * sizeof(double))};
-    if (!context.factor)
+    struct low_rank user_data = {.length = length,
+                                 .factor = malloc(RANK * length * sizeof(double))};
+    if (!user_data.factor)
         return 1;
     for (size_t k = 0; k < RANK; k++)
         for (size_t i = 0; i < length; i++)
-            context.factor[k * length + i] =
+            user_data.factor[k * length + i] =
                 sqrt(2 / (double)length) *
                 sin(3.14159265358979323846 * (double)(k + 1) * ((double)i + 0.5) / (double)length);
     galv_options options;
@@ -143,7 +144,7 @@ int main(int argc, char **argv)
     options.modes = 10;
     options.spectrum = RANK;
     galv_data data = {
-        .count = count, .coordinates = length, .rows = make_rows, .context = &context};
+        .count = count, .coordinates = length, .rows = make_rows, .user_data = &user_data};
     galv_model *model = NULL;
     double start = seconds();
     if (galv_build_data(&data, &options, &model)) {
@@ -163,10 +164,10 @@ int main(int argc, char **argv)
         "N %zu, L %zu: %.1f s wall, %.1f s processor, of these for the data %.1f and %.1f, %ld MB, "
         "%zu passes, method %d, relative to population %.1e (expected scatter %.1e), residual "
         "%.1e\n",
-        count, length, wall, processor_seconds(), context.wall, context.seconds,
+        count, length, wall, processor_seconds(), user_data.wall, user_data.seconds,
         usage.ru_maxrss / 1024, galv_model_view(model).passes, (int)galv_model_method(model), worst,
         sqrt(0.8 / (double)count), residual);
     galv_model_free(model);
-    free(context.factor);
+    free(user_data.factor);
     return 0;
 }

@@ -47,8 +47,9 @@ static igabem_hull *read_hull(const char *path)
     if (nurbs_patches_read(path, &file) == NURBS_OK &&
         nurbs_surface_wetted(nurbs_patches_get(file, 0), 0.0, 1e-5 * length, &wetted) == NURBS_OK &&
         nurbs_surface_simplify(wetted, 1e-4 * length,
-                               NURBS_KEEP_EDGES | NURBS_KEEP_KINKS | NURBS_THRIFTY, &light,
-                               &bound) == NURBS_OK &&
+                               NURBS_SIMPLIFY_KEEP_EDGES | NURBS_SIMPLIFY_KEEP_KINKS |
+                                   NURBS_SIMPLIFY_THRIFTY,
+                               &light, &bound) == NURBS_OK &&
         igabem_hull_create((const nurbs_surface *const *)&light, 1, IGABEM_SYMMETRIC, &hull) ==
             IGABEM_OK)
         igabem_hull_set_length(hull, length);

@@ -18,16 +18,23 @@ static const struct setting {
     double cutoff_factor;
     double stern; /* times the rule, or, if negative, minus the share of the length */
     double blend; /* 0: the default */
-} settings[SETTINGS] = {
-    {IGABEM_NEUMANN_KELVIN_STERN, 1.2, 1.0, 0.0},   {IGABEM_NEUMANN_KELVIN_STERN, 0.75, 1.0, 0.0},
-    {IGABEM_NEUMANN_KELVIN_STERN, 0.9, 1.0, 0.0},   {IGABEM_NEUMANN_KELVIN_STERN, 1.5, 1.0, 0.0},
-    {IGABEM_NEUMANN_KELVIN_STERN, 1.2, 0.8, 0.0},   {IGABEM_NEUMANN_KELVIN_STERN, 1.2, 1.2, 0.0},
-    {IGABEM_NEUMANN_KELVIN_STERN, 1.2, -0.28, 0.0}, {IGABEM_NEUMANN_KELVIN_STERN, 1.2, -0.35, 0.0},
-    {IGABEM_NEUMANN_KELVIN_STERN, 1.2, -0.42, 0.0}, {IGABEM_NEUMANN_KELVIN, 1.2, 1.0, 0.0},
-    {IGABEM_NEUMANN_KELVIN, 0.75, 1.0, 0.0},        {IGABEM_DOUBLE_BODY_KOCHIN, 1.2, 1.0, 0.0},
-    {IGABEM_NEUMANN_KELVIN_STERN, 1.2, 1.0, 0.2},   {IGABEM_NEUMANN_KELVIN_STERN, 0.75, 1.0, 0.2},
-    {IGABEM_NEUMANN_KELVIN_STERN, 1.5, 1.0, 0.2},   {IGABEM_NEUMANN_KELVIN_STERN, 1.2, 0.8, 0.2},
-    {IGABEM_NEUMANN_KELVIN_STERN, 1.2, 1.2, 0.2}};
+} settings[SETTINGS] = {{IGABEM_FORMULATION_NEUMANN_KELVIN_STERN, 1.2, 1.0, 0.0},
+                        {IGABEM_FORMULATION_NEUMANN_KELVIN_STERN, 0.75, 1.0, 0.0},
+                        {IGABEM_FORMULATION_NEUMANN_KELVIN_STERN, 0.9, 1.0, 0.0},
+                        {IGABEM_FORMULATION_NEUMANN_KELVIN_STERN, 1.5, 1.0, 0.0},
+                        {IGABEM_FORMULATION_NEUMANN_KELVIN_STERN, 1.2, 0.8, 0.0},
+                        {IGABEM_FORMULATION_NEUMANN_KELVIN_STERN, 1.2, 1.2, 0.0},
+                        {IGABEM_FORMULATION_NEUMANN_KELVIN_STERN, 1.2, -0.28, 0.0},
+                        {IGABEM_FORMULATION_NEUMANN_KELVIN_STERN, 1.2, -0.35, 0.0},
+                        {IGABEM_FORMULATION_NEUMANN_KELVIN_STERN, 1.2, -0.42, 0.0},
+                        {IGABEM_FORMULATION_NEUMANN_KELVIN, 1.2, 1.0, 0.0},
+                        {IGABEM_FORMULATION_NEUMANN_KELVIN, 0.75, 1.0, 0.0},
+                        {IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN, 1.2, 1.0, 0.0},
+                        {IGABEM_FORMULATION_NEUMANN_KELVIN_STERN, 1.2, 1.0, 0.2},
+                        {IGABEM_FORMULATION_NEUMANN_KELVIN_STERN, 0.75, 1.0, 0.2},
+                        {IGABEM_FORMULATION_NEUMANN_KELVIN_STERN, 1.5, 1.0, 0.2},
+                        {IGABEM_FORMULATION_NEUMANN_KELVIN_STERN, 1.2, 0.8, 0.2},
+                        {IGABEM_FORMULATION_NEUMANN_KELVIN_STERN, 1.2, 1.2, 0.2}};
 
 static igabem_hull *read_hull(const char *path)
 {
@@ -40,7 +47,8 @@ static igabem_hull *read_hull(const char *path)
     /* a file that ends at the water is used as it is */
     if (!status &&
         nurbs_surface_wetted(nurbs_patches_get(file, 0), 0.0, 1e-5 * length, &wetted) == NURBS_OK)
-        status = nurbs_surface_simplify(wetted, 1e-4 * length, NURBS_KEEP_EDGES | NURBS_KEEP_KINKS,
+        status = nurbs_surface_simplify(wetted, 1e-4 * length,
+                                        NURBS_SIMPLIFY_KEEP_EDGES | NURBS_SIMPLIFY_KEEP_KINKS,
                                         &light, &bound);
     else if (!status)
         status = nurbs_surface_copy(nurbs_patches_get(file, 0), &light);

@@ -108,8 +108,9 @@ igabem_hull *hull_file(const char *file, double tolerance)
         status = nurbs_surface_wetted(whole, 0.0, 1e-5 * length, &wetted);
         wetted = take(status, wetted, NULL, file);
         status = nurbs_surface_simplify(wetted, tolerance * length,
-                                        NURBS_KEEP_EDGES | NURBS_KEEP_KINKS | NURBS_THRIFTY, &light,
-                                        &bound);
+                                        NURBS_SIMPLIFY_KEEP_EDGES | NURBS_SIMPLIFY_KEEP_KINKS |
+                                            NURBS_SIMPLIFY_THRIFTY,
+                                        &light, &bound);
     } else {
         status = nurbs_surface_copy(whole, &light);
     }

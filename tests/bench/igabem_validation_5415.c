@@ -73,22 +73,22 @@ static size_t variants(const igabem_hull *hull, double froude, const int element
         int line_term;
         double factor, x_s;
     } list[VARIANTS] = {
-        {"neumann-kelvin-stern (default)", IGABEM_NEUMANN_KELVIN_STERN, 1, 1.2, 0},
-        {"the same, t_c nu_s 0.75", IGABEM_NEUMANN_KELVIN_STERN, 1, 0.75, 0},
-        {"the same, t_c nu_s 0.9", IGABEM_NEUMANN_KELVIN_STERN, 1, 0.9, 0},
-        {"the same, t_c nu_s 1.5", IGABEM_NEUMANN_KELVIN_STERN, 1, 1.5, 0},
-        {"the same, x_s 1.0 m", IGABEM_NEUMANN_KELVIN_STERN, 1, 1.2, 1.0},
-        {"the same, x_s 1.5 m", IGABEM_NEUMANN_KELVIN_STERN, 1, 1.2, 1.5},
-        {"the same, x_s 2.5 m", IGABEM_NEUMANN_KELVIN_STERN, 1, 1.2, 2.5},
-        {"the same, no line term", IGABEM_NEUMANN_KELVIN_STERN, 0, 1.2, 0},
-        {"neumann-kelvin, t_c nu_s 1.2", IGABEM_NEUMANN_KELVIN, 1, 1.2, 0},
-        {"the same, t_c nu_s 0.75", IGABEM_NEUMANN_KELVIN, 1, 0.75, 0},
-        {"the same, no line term", IGABEM_NEUMANN_KELVIN, 0, 1.2, 0},
-        {"double-body-kochin", IGABEM_DOUBLE_BODY_KOCHIN, 1, 1.2, 0},
-        {"the same, no line term", IGABEM_DOUBLE_BODY_KOCHIN, 0, 1.2, 0},
-        {"hogner", IGABEM_HOGNER, 1, 1.2, 0},
-        {"the same, no line term", IGABEM_HOGNER, 0, 1.2, 0},
-        {"michell", IGABEM_MICHELL, 1, 1.2, 0},
+        {"neumann-kelvin-stern (default)", IGABEM_FORMULATION_NEUMANN_KELVIN_STERN, 1, 1.2, 0},
+        {"the same, t_c nu_s 0.75", IGABEM_FORMULATION_NEUMANN_KELVIN_STERN, 1, 0.75, 0},
+        {"the same, t_c nu_s 0.9", IGABEM_FORMULATION_NEUMANN_KELVIN_STERN, 1, 0.9, 0},
+        {"the same, t_c nu_s 1.5", IGABEM_FORMULATION_NEUMANN_KELVIN_STERN, 1, 1.5, 0},
+        {"the same, x_s 1.0 m", IGABEM_FORMULATION_NEUMANN_KELVIN_STERN, 1, 1.2, 1.0},
+        {"the same, x_s 1.5 m", IGABEM_FORMULATION_NEUMANN_KELVIN_STERN, 1, 1.2, 1.5},
+        {"the same, x_s 2.5 m", IGABEM_FORMULATION_NEUMANN_KELVIN_STERN, 1, 1.2, 2.5},
+        {"the same, no line term", IGABEM_FORMULATION_NEUMANN_KELVIN_STERN, 0, 1.2, 0},
+        {"neumann-kelvin, t_c nu_s 1.2", IGABEM_FORMULATION_NEUMANN_KELVIN, 1, 1.2, 0},
+        {"the same, t_c nu_s 0.75", IGABEM_FORMULATION_NEUMANN_KELVIN, 1, 0.75, 0},
+        {"the same, no line term", IGABEM_FORMULATION_NEUMANN_KELVIN, 0, 1.2, 0},
+        {"double-body-kochin", IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN, 1, 1.2, 0},
+        {"the same, no line term", IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN, 0, 1.2, 0},
+        {"hogner", IGABEM_FORMULATION_HOGNER, 1, 1.2, 0},
+        {"the same, no line term", IGABEM_FORMULATION_HOGNER, 0, 1.2, 0},
+        {"michell", IGABEM_FORMULATION_MICHELL, 1, 1.2, 0},
     };
     for (size_t k = 0; k < VARIANTS; k++) {
         o[k] = model_scale(froude, list[k].formulation, elements);
@@ -173,8 +173,9 @@ static void froude_numbers(const char *file)
 {
     enum { N = 26, KINDS = 5 };
     static const igabem_formulation kinds[KINDS] = {
-        IGABEM_NEUMANN_KELVIN_STERN, IGABEM_NEUMANN_KELVIN, IGABEM_DOUBLE_BODY_KOCHIN,
-        IGABEM_HOGNER, IGABEM_MICHELL};
+        IGABEM_FORMULATION_NEUMANN_KELVIN_STERN, IGABEM_FORMULATION_NEUMANN_KELVIN,
+        IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN, IGABEM_FORMULATION_HOGNER,
+        IGABEM_FORMULATION_MICHELL};
     static igabem_options options[N * KINDS];
     static igabem_forces forces[N * KINDS];
     static const int elements[2] = {32, 10};
@@ -209,7 +210,7 @@ static void growth(const char *file)
            "wall clock of the machine that wrote this page");
     for (int l = 0; l < 5; l++) {
         igabem_hull *hull = hull_file(file, 1e-4);
-        igabem_options options = model_scale(0.35, IGABEM_AUTOMATIC, elements[l]);
+        igabem_options options = model_scale(0.35, IGABEM_FORMULATION_AUTO, elements[l]);
         igabem_forces forces;
         solve_all(hull, 1, &options, &forces);
         printf("| %zu | %.2f |\n", forces.dofs, forces.seconds);

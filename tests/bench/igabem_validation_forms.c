@@ -86,9 +86,9 @@ static void flare_table(void)
             for (int k = 0; k < 5; k++)
                 options[k] = k == 4 ? on_mesh(froude[i], 48, 12) : on_mesh(froude[i], 32, 8);
             options[0].sensitivity = 1;
-            options[1].formulation = IGABEM_DOUBLE_BODY_KOCHIN;
-            options[2].formulation = IGABEM_HOGNER;
-            options[3].formulation = IGABEM_MICHELL;
+            options[1].formulation = IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN;
+            options[2].formulation = IGABEM_FORMULATION_HOGNER;
+            options[3].formulation = IGABEM_FORMULATION_MICHELL;
             solve_all(hull, 5, options, f);
             printf("| %.1f | %.0f | %.2f | %.3f (%+.1f, %+.1f, %+.1f) | %.3f | %.3f | %.3f | %.3f "
                    "|\n",
@@ -127,7 +127,7 @@ static void trim_table(void)
         for (int i = 0; i < 2; i++) {
             options[2 * i] = options[2 * i + 1] = on_mesh(froude[i], 32, 8);
             options[2 * i].sensitivity = 1;
-            options[2 * i + 1].formulation = IGABEM_MICHELL;
+            options[2 * i + 1].formulation = IGABEM_FORMULATION_MICHELL;
         }
         solve_all(hull, 4, options, f);
         printf("| %.2f | %.3f |", trim[k], sinkage[k]);
@@ -172,9 +172,9 @@ static void full_bow_table(void)
             if (k < 6)
                 options[k].cutoff_factor = factor[k];
         }
-        options[6].formulation = IGABEM_MICHELL;
-        options[7].formulation = IGABEM_HOGNER;
-        options[8].formulation = IGABEM_DOUBLE_BODY_KOCHIN;
+        options[6].formulation = IGABEM_FORMULATION_MICHELL;
+        options[7].formulation = IGABEM_FORMULATION_HOGNER;
+        options[8].formulation = IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN;
         solve_all(hull, 9, options, f);
         double low = INFINITY, high = 0.0;
         printf("| %.2f | %.3f |", beam[b], info.nu_s);

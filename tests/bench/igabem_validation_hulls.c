@@ -90,8 +90,9 @@ static void print_humps(size_t n, const double *froude, const double *cw)
 static void froude_numbers(const igabem_hull *hull)
 {
     enum { N = 26, KINDS = 4 };
-    static const igabem_formulation kinds[KINDS] = {IGABEM_AUTOMATIC, IGABEM_DOUBLE_BODY_KOCHIN,
-                                                    IGABEM_HOGNER, IGABEM_MICHELL};
+    static const igabem_formulation kinds[KINDS] = {
+        IGABEM_FORMULATION_AUTO, IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN, IGABEM_FORMULATION_HOGNER,
+        IGABEM_FORMULATION_MICHELL};
     igabem_options options[N * KINDS];
     igabem_forces forces[N * KINDS];
     double froude[N], cw[3][N], worst = 0.0, worst_at = 0.0;

@@ -150,11 +150,11 @@ static void transom_table(void)
     static const struct {
         igabem_formulation formulation;
         int closed;
-    } rows[5] = {{IGABEM_NEUMANN_KELVIN_STERN, 0},
-                 {IGABEM_DOUBLE_BODY_KOCHIN, 0},
-                 {IGABEM_NEUMANN_KELVIN_STERN, 1},
-                 {IGABEM_DOUBLE_BODY_KOCHIN, 1},
-                 {IGABEM_NEUMANN_KELVIN, 1}};
+    } rows[5] = {{IGABEM_FORMULATION_NEUMANN_KELVIN_STERN, 0},
+                 {IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN, 0},
+                 {IGABEM_FORMULATION_NEUMANN_KELVIN_STERN, 1},
+                 {IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN, 1},
+                 {IGABEM_FORMULATION_NEUMANN_KELVIN, 1}};
     const double b = 0.05, t = 0.0625, knots[4] = {0, 0, 1, 1};
     const double points[2][12] = {{0, b, 0, 0, 0, -t, 1, 0, 0, 1, 0, -t},
                                   {0, 0, 0, 0, 0, -t, 0, b, 0, 0, 0, -t}};

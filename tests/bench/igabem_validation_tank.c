@@ -55,8 +55,9 @@ static size_t read_tank(const char *path, struct reading readings[MOST])
 
 static void solve_sweep(struct sweep *sweep)
 {
-    static const igabem_formulation kinds[4] = {IGABEM_NEUMANN_KELVIN, IGABEM_DOUBLE_BODY_KOCHIN,
-                                                IGABEM_HOGNER, IGABEM_MICHELL};
+    static const igabem_formulation kinds[4] = {
+        IGABEM_FORMULATION_NEUMANN_KELVIN, IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN,
+        IGABEM_FORMULATION_HOGNER, IGABEM_FORMULATION_MICHELL};
     igabem_hull *hull = wigley(0.1, 0.0625, 32, 8);
     igabem_options options[4 * SPEEDS];
     igabem_forces forces[4 * SPEEDS];

@@ -110,7 +110,7 @@ static void cut_off(void)
         options[7].line_term = options[8].line_term = 0;
         options[7].cutoff_factor = 0.8;
         options[8].cutoff_factor = 1.6;
-        options[9].formulation = IGABEM_MICHELL;
+        options[9].formulation = IGABEM_FORMULATION_MICHELL;
         solve_all(hull, 10, options, forces);
         printf("| %.2f | %.4f | %.2f |", cases[c][0], cases[c][1], cases[c][2]);
         for (int k = 0; k < 9; k++)
@@ -163,7 +163,7 @@ static void thin_limit(void)
         igabem_forces forces[8];
         for (int i = 0; i < 4; i++) {
             options[i] = options[i + 4] = at_froude(froude[i]);
-            options[i + 4].formulation = IGABEM_MICHELL;
+            options[i + 4].formulation = IGABEM_FORMULATION_MICHELL;
         }
         solve_all(hull, 8, options, forces);
         printf("| %.4f |", beams[b]);
@@ -191,10 +191,10 @@ static void froude_sweep(void)
     for (int i = 0; i < N; i++)
         for (int k = 0; k < 4; k++) {
             options[4 * i + k] = at_froude(0.20 + 0.01 * i);
-            options[4 * i + k].formulation = k == 0   ? IGABEM_NEUMANN_KELVIN
-                                             : k == 1 ? IGABEM_DOUBLE_BODY_KOCHIN
-                                             : k == 2 ? IGABEM_HOGNER
-                                                      : IGABEM_MICHELL;
+            options[4 * i + k].formulation = k == 0   ? IGABEM_FORMULATION_NEUMANN_KELVIN
+                                             : k == 1 ? IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN
+                                             : k == 2 ? IGABEM_FORMULATION_HOGNER
+                                                      : IGABEM_FORMULATION_MICHELL;
         }
     solve_all(hull, 4 * N, options, forces);
     printf("### Froude numbers\n\nC_w x 1000, 32 x 8 elements, B/L 0.1. Published for scale: thin "

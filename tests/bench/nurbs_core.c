@@ -584,7 +584,7 @@ static void bench_simplify(const char *name, nurbs_surface *s, double tolerance,
         nurbs_surface_free(simple);
         BEST(ours, must(nurbs_surface_simplify(s, tolerance, 0, &simple, &bound)));
     }
-    BEST(thrifty, must(nurbs_surface_simplify(s, tolerance, NURBS_THRIFTY, &light, NULL)));
+    BEST(thrifty, must(nurbs_surface_simplify(s, tolerance, NURBS_SIMPLIFY_THRIFTY, &light, NULL)));
 #ifdef HAVE_SISL
     SISLSurf *peer = peer_surface(s);
     for (int r = 0; r < repetitions; r++) {

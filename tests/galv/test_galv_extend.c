@@ -42,7 +42,7 @@ static void compare_extension(bool centre, bool weighted, galv_combination combi
         double lost = galv_model_eigenvalues(whole)[k] - galv_model_eigenvalues(grown)[k];
         CU_ASSERT_TRUE(lost >= -1e-13 * scale && lost <= bound + 1e-13 * scale);
     }
-    if (combination == GALV_LINEAR) /* nothing beyond the pairs kept: exact */
+    if (combination == GALV_COMBINATION_LINEAR) /* nothing beyond the pairs kept: exact */
         CHECK_CLOSE(bound, 0, 1e-13 * scale);
     else
         CU_ASSERT_TRUE(bound < galv_model_eigenvalues(whole)[m - 1]);
@@ -72,21 +72,21 @@ static void compare_extension(bool centre, bool weighted, galv_combination combi
 
 static void test_extension_equals_rebuilding(void)
 {
-    compare_extension(false, false, GALV_LINEAR);
-    compare_extension(true, true, GALV_LINEAR);
-    compare_extension(false, false, GALV_RECURSIVE);
-    compare_extension(true, false, GALV_RECURSIVE);
-    compare_extension(false, true, GALV_RECURSIVE);
+    compare_extension(false, false, GALV_COMBINATION_LINEAR);
+    compare_extension(true, true, GALV_COMBINATION_LINEAR);
+    compare_extension(false, false, GALV_COMBINATION_RECURSIVE);
+    compare_extension(true, false, GALV_COMBINATION_RECURSIVE);
+    compare_extension(false, true, GALV_COMBINATION_RECURSIVE);
 }
 
 static void test_extension_refuses(void)
 {
-    galv_shape *shape = fixture_shape(GALV_LINEAR, 0.03), *other = NULL;
+    galv_shape *shape = fixture_shape(GALV_COMBINATION_LINEAR, 0.03), *other = NULL;
     galv_model *model = build(shape, galv_uniform(50, 1), NULL), *grown = NULL;
     galv_sine function;
     double lower = 0, upper = 1;
     function = (galv_sine){.order = {1, 1, 1}, .direction = 1};
-    galv_shape_sine(1, &function, &fixture_box, &lower, &upper, GALV_LINEAR, &other);
+    galv_shape_sine(1, &function, &fixture_box, &lower, &upper, GALV_COMBINATION_LINEAR, &other);
     CU_ASSERT_EQUAL(galv_extend(model, other, galv_uniform(5, 1), NULL, &grown),
                     GALV_ERROR_ARGUMENT);
     CU_ASSERT_EQUAL(galv_extend(model, shape, galv_uniform(0, 1), NULL, &grown),
@@ -100,7 +100,7 @@ static void test_extension_refuses(void)
 
 static void test_view_and_restore(void)
 {
-    galv_shape *shape = fixture_shape(GALV_RECURSIVE, 0.03);
+    galv_shape *shape = fixture_shape(GALV_COMBINATION_RECURSIVE, 0.03);
     galv_options options;
     galv_options_init(&options);
     options.centre = true;
@@ -145,9 +145,9 @@ struct matrix {
     size_t length, refuse;
 };
 
-static int matrix_rows(void *context, size_t first, size_t count, double *rows)
+static int matrix_rows(void *user_data, size_t first, size_t count, double *rows)
 {
-    const struct matrix *m = context;
+    const struct matrix *m = user_data;
     memcpy(rows, m->rows + first * m->length, count * m->length * sizeof *rows);
     return first + count > m->refuse ? 5 : 0;
 }
@@ -165,7 +165,7 @@ static void test_plain_data(void)
     galv_data data = {.count = COUNT,
                       .coordinates = LENGTH,
                       .rows = matrix_rows,
-                      .context = &matrix,
+                      .user_data = &matrix,
                       .weights = weights};
     double *values = fixture_spectrum(COUNT, LENGTH, rows, true, weights, 0, NULL);
     galv_options options;
@@ -184,7 +184,7 @@ static void test_plain_data(void)
                     0);
     galv_model_free(same);
     double x, u[LENGTH] = {0};
-    galv_shape *shape = fixture_shape(GALV_LINEAR, 1);
+    galv_shape *shape = fixture_shape(GALV_COMBINATION_LINEAR, 1);
     CU_ASSERT_EQUAL(galv_backmap(model, shape, u, &x, NULL), GALV_ERROR_ARGUMENT);
     galv_shape_free(shape);
     galv_model_free(model);
@@ -199,7 +199,7 @@ static void test_plain_data(void)
 static void test_bounds_cover_their_share(void)
 {
     enum { COUNT = 1000 };
-    galv_shape *shape = fixture_shape(GALV_RECURSIVE, 0.03);
+    galv_shape *shape = fixture_shape(GALV_COMBINATION_RECURSIVE, 0.03);
     galv_model *model = build(shape, galv_uniform(COUNT, 1), NULL);
     size_t m = galv_model_modes(model);
     const double *latent = galv_model_latent(model);

@@ -18,7 +18,7 @@ static galv_model *build(const galv_shape *shape, size_t count, uint64_t seed,
 
 static void test_projection_inverts_reconstruction(void)
 {
-    galv_shape *shape = fixture_shape(GALV_RECURSIVE, 0.03);
+    galv_shape *shape = fixture_shape(GALV_COMBINATION_RECURSIVE, 0.03);
     galv_model *model = build(shape, 300, 1, NULL);
     size_t m = galv_model_modes(model);
     double u[FUNCTIONS], back[FUNCTIONS], d[3 * POINTS];
@@ -39,7 +39,7 @@ static void test_projection_inverts_reconstruction(void)
 static void test_box_holds_samples(void)
 {
     enum { COUNT = 200 };
-    galv_shape *shape = fixture_shape(GALV_RECURSIVE, 0.03);
+    galv_shape *shape = fixture_shape(GALV_COMBINATION_RECURSIVE, 0.03);
     galv_model *model = build(shape, COUNT, 8, NULL);
     size_t m = galv_model_modes(model);
     const double *lower = galv_model_lower(model), *upper = galv_model_upper(model);
@@ -69,7 +69,7 @@ static void test_box_holds_samples(void)
 /* Modes are reported with their component of largest magnitude positive. */
 static void test_sign_of_modes(void)
 {
-    galv_shape *shape = fixture_shape(GALV_RECURSIVE, 0.03);
+    galv_shape *shape = fixture_shape(GALV_COMBINATION_RECURSIVE, 0.03);
     galv_model *model = build(shape, 100, 3, NULL);
     size_t length = galv_model_coordinates(model);
     for (size_t k = 0; k < galv_model_modes(model); k++) {
@@ -87,7 +87,7 @@ static void test_sign_of_modes(void)
 /* With all 27 modes of a linear shape the parameters come back. */
 static void test_backmap_returns_parameters(void)
 {
-    galv_shape *shape = fixture_shape(GALV_LINEAR, 0.03);
+    galv_shape *shape = fixture_shape(GALV_COMBINATION_LINEAR, 0.03);
     galv_options options;
     galv_options_init(&options);
     options.modes = FUNCTIONS;
@@ -117,7 +117,7 @@ static double distance(const galv_shape *shape, const double *x, const double *t
  * bounds is nearer. */
 static void test_backmap_is_a_bounded_minimum(void)
 {
-    galv_shape *shape = fixture_shape(GALV_RECURSIVE, 0.03);
+    galv_shape *shape = fixture_shape(GALV_COMBINATION_RECURSIVE, 0.03);
     galv_model *model = build(shape, 500, 2, NULL);
     size_t m = galv_model_modes(model);
     unsigned at_bound = 0;
@@ -196,7 +196,7 @@ static size_t widest_gap(const galv_model *model)
 static void test_confidence_matches_repetition(void)
 {
     enum { BUILDS = 12, COUNT = 1500, MANY = 15000 };
-    galv_shape *shape = fixture_shape(GALV_RECURSIVE, 0.03);
+    galv_shape *shape = fixture_shape(GALV_COMBINATION_RECURSIVE, 0.03);
     galv_options options;
     galv_options_init(&options);
     galv_model *first = build(shape, COUNT, 1, NULL);
@@ -227,7 +227,7 @@ static void test_confidence_matches_repetition(void)
  * noise. */
 static void test_confidence_shrinks(void)
 {
-    galv_shape *shape = fixture_shape(GALV_RECURSIVE, 0.03);
+    galv_shape *shape = fixture_shape(GALV_COMBINATION_RECURSIVE, 0.03);
     galv_options options;
     galv_options_init(&options);
     options.modes = 12;

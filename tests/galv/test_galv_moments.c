@@ -96,7 +96,7 @@ static void test_appended_moments(void)
     enum { COUNT = 200, MOST = 80 };
     double xyz[3 * POINTS], weights[MOST], all[3 * POINTS + MOST];
     fixture_grid(xyz);
-    galv_shape *shape = fixture_shape(GALV_RECURSIVE, 0.03);
+    galv_shape *shape = fixture_shape(GALV_COMBINATION_RECURSIVE, 0.03);
     galv_moment_set set = {
         .sections = SECTIONS, .girth = GIRTH, .order = 2, .section_order = 1, .section_stride = 7};
     galv_extra extra = galv_moments_extra(&set);
@@ -170,7 +170,7 @@ static void test_given_quantities(void)
     enum { COUNT = 60, HULL = 4, SECTION = 3, MOST = 20 };
     double xyz[3 * POINTS], weights[MOST], change[MOST];
     fixture_grid(xyz);
-    galv_shape *shape = fixture_shape(GALV_RECURSIVE, 0.03);
+    galv_shape *shape = fixture_shape(GALV_COMBINATION_RECURSIVE, 0.03);
     galv_moment_set both = {.sections = SECTIONS,
                             .girth = GIRTH,
                             .order = 1,
@@ -230,7 +230,7 @@ static void test_moments_supervise(void)
     enum { COUNT = 400, MODES = 4 };
     double xyz[3 * POINTS], weight = 0, u[MODES], d[3 * POINTS + 1], error[2] = {0, 0};
     fixture_grid(xyz);
-    galv_shape *shape = fixture_shape(GALV_RECURSIVE, 0.03);
+    galv_shape *shape = fixture_shape(GALV_COMBINATION_RECURSIVE, 0.03);
     galv_moment_set set = {.sections = SECTIONS, .girth = GIRTH, .order = 0};
     galv_extra extra = galv_moments_extra(&set);
     CU_ASSERT_EQUAL_FATAL(

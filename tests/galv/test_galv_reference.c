@@ -70,7 +70,7 @@ struct line {
 };
 
 /* Hands every line of the reference to `check`; returns their number. */
-static size_t each_line(void (*check)(const struct line *, void *), void *context)
+static size_t each_line(void (*check)(const struct line *, void *), void *user_data)
 {
     FILE *stream = fopen(TEST_DATA_DIR "/galv_reference.csv", "r");
     char text[256];
@@ -89,16 +89,16 @@ static size_t each_line(void (*check)(const struct line *, void *), void *contex
         snprintf(line.quantity, sizeof line.quantity, "%.15s", field[0]);
         snprintf(line.set, sizeof line.set, "%.15s", field[1]);
         snprintf(line.where, sizeof line.where, "%.23s", field[2]);
-        check(&line, context);
+        check(&line, user_data);
         lines++;
     }
     fclose(stream);
     return lines;
 }
 
-static void check_parameter(const struct line *line, void *context)
+static void check_parameter(const struct line *line, void *user_data)
 {
-    size_t index, *seen = context;
+    size_t index, *seen = user_data;
     if (strcmp(line->quantity, "parameter") != 0)
         return;
     CU_ASSERT_EQUAL(sscanf(line->where, "%zu", &index), 1);
@@ -121,9 +121,9 @@ struct comparison {
     size_t seen;
 };
 
-static void check_line(const struct line *line, void *context)
+static void check_line(const struct line *line, void *user_data)
 {
-    struct comparison *c = context;
+    struct comparison *c = user_data;
     size_t a = 0, i = 0, j = 0;
     double d[3 * POINTS];
     if (strcmp(line->set, c->set) != 0)
@@ -155,7 +155,8 @@ static void test_spectra(void)
     make_samples();
     for (int recursive = 0; recursive < 2; recursive++)
         for (int method = GALV_METHOD_COVARIANCE; method <= GALV_METHOD_RANDOMISED; method++) {
-            galv_shape *shape = make_shape(recursive ? GALV_RECURSIVE : GALV_LINEAR);
+            galv_shape *shape =
+                make_shape(recursive ? GALV_COMBINATION_RECURSIVE : GALV_COMBINATION_LINEAR);
             galv_model *model = NULL;
             galv_options options;
             galv_options_init(&options);

@@ -16,7 +16,7 @@ static galv_status build(const galv_shape *shape, galv_sampling sampling,
 
 static void test_one_sample(void)
 {
-    galv_shape *shape = fixture_shape(GALV_RECURSIVE, 0.03);
+    galv_shape *shape = fixture_shape(GALV_COMBINATION_RECURSIVE, 0.03);
     galv_model *model;
     galv_options options;
     galv_options_init(&options);
@@ -87,7 +87,7 @@ static void test_few_samples_of_any_rank(void)
 static void test_duplicates(void)
 {
     enum { COUNT = 60, DIFFERENT = 5 };
-    galv_shape *shape = fixture_shape(GALV_RECURSIVE, 0.03);
+    galv_shape *shape = fixture_shape(GALV_COMBINATION_RECURSIVE, 0.03);
     double *x = fixture_samples(shape, COUNT, 3);
     for (size_t r = DIFFERENT; r < COUNT; r++)
         memcpy(x + r * FUNCTIONS, x + (r % DIFFERENT) * FUNCTIONS, FUNCTIONS * sizeof *x);
@@ -116,9 +116,9 @@ static void test_duplicates(void)
 }
 
 /* d = (1, x p, 0): constant along x, varying along y, nothing along z. */
-static int constant(void *context, size_t npoints, const double *xyz, const double *x, double *d)
+static int constant(void *user_data, size_t npoints, const double *xyz, const double *x, double *d)
 {
-    (void)context;
+    (void)user_data;
     (void)xyz;
     for (size_t p = 0; p < npoints; p++) {
         d[3 * p] = 1;
@@ -153,12 +153,12 @@ static void test_constant_coordinates(void)
     galv_shape_free(shape);
 }
 
-static int sometimes_nan(void *context, size_t npoints, const double *xyz, const double *x,
+static int sometimes_nan(void *user_data, size_t npoints, const double *xyz, const double *x,
                          double *d)
 {
     constant(NULL, npoints, xyz, x, d);
     if (x[0] == 1234)
-        d[7] = *(const double *)context;
+        d[7] = *(const double *)user_data;
     return 0;
 }
 
@@ -192,9 +192,9 @@ static void test_bad_sample_is_named(void)
     galv_shape_free(shape);
 }
 
-static int refuse(void *context, size_t npoints, const double *xyz, const double *x, double *d)
+static int refuse(void *user_data, size_t npoints, const double *xyz, const double *x, double *d)
 {
-    constant(context, npoints, xyz, x, d);
+    constant(user_data, npoints, xyz, x, d);
     return x[0] > 0.99 ? 17 : 0;
 }
 
@@ -213,9 +213,9 @@ static void test_callback_refuses(void)
     galv_shape_free(shape);
 }
 
-static int cancel(void *context, double fraction)
+static int cancel(void *user_data, double fraction)
 {
-    double *last = context;
+    double *last = user_data;
     CU_ASSERT_TRUE(fraction >= *last && fraction <= 1);
     *last = fraction;
     return fraction > 0.6;
@@ -223,12 +223,12 @@ static int cancel(void *context, double fraction)
 
 static void test_progress_cancels(void)
 {
-    galv_shape *shape = fixture_shape(GALV_RECURSIVE, 0.03);
+    galv_shape *shape = fixture_shape(GALV_COMBINATION_RECURSIVE, 0.03);
     galv_options options;
     galv_options_init(&options);
     double last = 0;
     options.progress = cancel;
-    options.progress_context = &last;
+    options.progress_user_data = &last;
     galv_model *model;
     CU_ASSERT_EQUAL(build(shape, galv_uniform(3000, 1), &options, &model), GALV_ERROR_CANCELLED);
     CU_ASSERT_TRUE(last > 0.6);
@@ -237,7 +237,7 @@ static void test_progress_cancels(void)
 
 static void test_wrong_arguments(void)
 {
-    galv_shape *shape = fixture_shape(GALV_RECURSIVE, 0.03), *other = NULL;
+    galv_shape *shape = fixture_shape(GALV_COMBINATION_RECURSIVE, 0.03), *other = NULL;
     galv_model *model;
     galv_options options;
     galv_options_init(&options);
@@ -274,7 +274,7 @@ static void test_wrong_arguments(void)
 /* Parameters that do nothing: bounds that coincide at 0. */
 static void test_nothing_moves(void)
 {
-    galv_shape *shape = fixture_shape(GALV_RECURSIVE, 0);
+    galv_shape *shape = fixture_shape(GALV_COMBINATION_RECURSIVE, 0);
     galv_model *model;
     CU_ASSERT_EQUAL(build(shape, galv_uniform(50, 1), NULL, &model), GALV_ERROR_GEOMETRY);
     galv_shape_free(shape);

@@ -35,8 +35,8 @@ static double worst_difference(size_t n, const galv_sine *functions, galv_combin
         CU_ASSERT_EQUAL(galv_shape_displace(shape, POINTS, xyz, x, d), GALV_OK);
         for (size_t p = 0; p < POINTS; p++) {
             double expected[3];
-            displace_plainly(n, functions, &fixture_box, combination == GALV_RECURSIVE, xyz + 3 * p,
-                             x, expected);
+            displace_plainly(n, functions, &fixture_box, combination == GALV_COMBINATION_RECURSIVE,
+                             xyz + 3 * p, x, expected);
             for (int j = 0; j < 3; j++)
                 worst = fmax(worst, fabs(d[3 * p + (size_t)j] - expected[j]));
         }
@@ -51,8 +51,8 @@ static void test_sines_match_definition(void)
     galv_sine functions[FUNCTIONS];
     fixture_grid(xyz);
     fixture_functions(functions);
-    CHECK_CLOSE(worst_difference(FUNCTIONS, functions, GALV_LINEAR, xyz), 0, 1e-15);
-    CHECK_CLOSE(worst_difference(FUNCTIONS, functions, GALV_RECURSIVE, xyz), 0, 1e-15);
+    CHECK_CLOSE(worst_difference(FUNCTIONS, functions, GALV_COMBINATION_LINEAR, xyz), 0, 1e-15);
+    CHECK_CLOSE(worst_difference(FUNCTIONS, functions, GALV_COMBINATION_RECURSIVE, xyz), 0, 1e-15);
 }
 
 /* All directions, fractional orders, phases: every axis can be live. */
@@ -69,8 +69,8 @@ static void test_any_direction_and_phase(void)
             functions[i].phase[j] = 0.4 * i - j;
     }
     functions[4].order[1] = 0;
-    CHECK_CLOSE(worst_difference(FUNCTIONS, functions, GALV_LINEAR, xyz), 0, 2e-15);
-    CHECK_CLOSE(worst_difference(FUNCTIONS, functions, GALV_RECURSIVE, xyz), 0, 2e-15);
+    CHECK_CLOSE(worst_difference(FUNCTIONS, functions, GALV_COMBINATION_LINEAR, xyz), 0, 2e-15);
+    CHECK_CLOSE(worst_difference(FUNCTIONS, functions, GALV_COMBINATION_RECURSIVE, xyz), 0, 2e-15);
 }
 
 /* A model built from rows of the fast path must see what galv_shape_displace() gives. */
@@ -87,8 +87,9 @@ static void test_rows_match_single_displacements(void)
         upper[i] = -(lower[i] = -0.02);
     }
     galv_shape *shape = NULL;
-    CU_ASSERT_EQUAL_FATAL(
-        galv_shape_sine(6, functions, &fixture_box, lower, upper, GALV_RECURSIVE, &shape), GALV_OK);
+    CU_ASSERT_EQUAL_FATAL(galv_shape_sine(6, functions, &fixture_box, lower, upper,
+                                          GALV_COMBINATION_RECURSIVE, &shape),
+                          GALV_OK);
     double *x = fixture_samples(shape, 40, 3);
     double *rows = fixture_rows(shape, POINTS, xyz, 40, x), trace = 0;
     for (size_t i = 0; i < 40 * 3 * POINTS; i++)
@@ -112,7 +113,7 @@ static void test_fold_bound_keeps_order(void)
     double bound[FUNCTIONS], x[FUNCTIONS], xyz[3 * LINE], d[3 * LINE];
     bool fixed = false;
     fixture_functions(functions);
-    galv_shape *shape = fixture_shape(GALV_RECURSIVE, 1);
+    galv_shape *shape = fixture_shape(GALV_COMBINATION_RECURSIVE, 1);
     CU_ASSERT_EQUAL_FATAL(galv_shape_fold_bound(shape, bound, &fixed), GALV_OK);
     CU_ASSERT_TRUE(fixed);
     for (int i = 0; i < FUNCTIONS; i++)
@@ -154,9 +155,9 @@ static void test_fold_bound_is_sharp(void)
     double lower = -1, upper = 1, bound, xyz[6] = {3, 0, -0.1, 3, 1e-4, -0.1}, d[6];
     bool fixed;
     galv_shape *shape = NULL;
-    CU_ASSERT_EQUAL_FATAL(
-        galv_shape_sine(1, &function, &fixture_box, &lower, &upper, GALV_RECURSIVE, &shape),
-        GALV_OK);
+    CU_ASSERT_EQUAL_FATAL(galv_shape_sine(1, &function, &fixture_box, &lower, &upper,
+                                          GALV_COMBINATION_RECURSIVE, &shape),
+                          GALV_OK);
     CU_ASSERT_EQUAL(galv_shape_fold_bound(shape, &bound, &fixed), GALV_OK);
     double x = -1.001 * bound;
     galv_shape_displace(shape, 2, xyz, &x, d);
@@ -166,9 +167,9 @@ static void test_fold_bound_is_sharp(void)
     CU_ASSERT_TRUE(xyz[4] + d[4] > 0);
     galv_shape_free(shape);
     function.phase[1] = 0.1;
-    CU_ASSERT_EQUAL_FATAL(
-        galv_shape_sine(1, &function, &fixture_box, &lower, &upper, GALV_RECURSIVE, &shape),
-        GALV_OK);
+    CU_ASSERT_EQUAL_FATAL(galv_shape_sine(1, &function, &fixture_box, &lower, &upper,
+                                          GALV_COMBINATION_RECURSIVE, &shape),
+                          GALV_OK);
     CU_ASSERT_EQUAL(galv_shape_fold_bound(shape, &bound, &fixed), GALV_OK);
     CU_ASSERT_FALSE(fixed);
     galv_shape_free(shape);
@@ -180,28 +181,34 @@ static void test_bad_shapes_are_named(void)
     double lower[2] = {-1, -1}, upper[2] = {1, 1};
     galv_shape *shape = NULL;
     galv_box box = fixture_box;
-    CU_ASSERT_EQUAL(galv_shape_sine(2, functions, &box, lower, upper, GALV_LINEAR, &shape),
-                    GALV_ERROR_ARGUMENT);
+    CU_ASSERT_EQUAL(
+        galv_shape_sine(2, functions, &box, lower, upper, GALV_COMBINATION_LINEAR, &shape),
+        GALV_ERROR_ARGUMENT);
     CU_ASSERT_PTR_NOT_NULL(strstr(galv_last_error(), "function 1"));
     functions[1].order[1] = 1;
     functions[1].direction = 3;
-    CU_ASSERT_EQUAL(galv_shape_sine(2, functions, &box, lower, upper, GALV_LINEAR, &shape),
-                    GALV_ERROR_ARGUMENT);
+    CU_ASSERT_EQUAL(
+        galv_shape_sine(2, functions, &box, lower, upper, GALV_COMBINATION_LINEAR, &shape),
+        GALV_ERROR_ARGUMENT);
     functions[1].direction = 0;
     box.length[2] = 0;
-    CU_ASSERT_EQUAL(galv_shape_sine(2, functions, &box, lower, upper, GALV_LINEAR, &shape),
-                    GALV_ERROR_ARGUMENT);
+    CU_ASSERT_EQUAL(
+        galv_shape_sine(2, functions, &box, lower, upper, GALV_COMBINATION_LINEAR, &shape),
+        GALV_ERROR_ARGUMENT);
     CU_ASSERT_PTR_NOT_NULL(strstr(galv_last_error(), "along z"));
     box.length[2] = 1;
     lower[1] = 2;
-    CU_ASSERT_EQUAL(galv_shape_sine(2, functions, &box, lower, upper, GALV_LINEAR, &shape),
-                    GALV_ERROR_ARGUMENT);
+    CU_ASSERT_EQUAL(
+        galv_shape_sine(2, functions, &box, lower, upper, GALV_COMBINATION_LINEAR, &shape),
+        GALV_ERROR_ARGUMENT);
     CU_ASSERT_PTR_NOT_NULL(strstr(galv_last_error(), "parameter 1"));
     lower[1] = -1;
-    CU_ASSERT_EQUAL(galv_shape_sine(0, functions, &box, lower, upper, GALV_LINEAR, &shape),
-                    GALV_ERROR_ARGUMENT);
-    CU_ASSERT_EQUAL_FATAL(galv_shape_sine(2, functions, &box, lower, upper, GALV_LINEAR, &shape),
-                          GALV_OK);
+    CU_ASSERT_EQUAL(
+        galv_shape_sine(0, functions, &box, lower, upper, GALV_COMBINATION_LINEAR, &shape),
+        GALV_ERROR_ARGUMENT);
+    CU_ASSERT_EQUAL_FATAL(
+        galv_shape_sine(2, functions, &box, lower, upper, GALV_COMBINATION_LINEAR, &shape),
+        GALV_OK);
     double xyz[6] = {0, 0, 0, 0, INFINITY, 0}, d[6], x[2] = {0.1, 0.1}, bad[2] = {0.1, NAN};
     CU_ASSERT_EQUAL(galv_shape_displace(shape, 2, xyz, x, d), GALV_ERROR_GEOMETRY);
     CU_ASSERT_PTR_NOT_NULL(strstr(galv_last_error(), "point 1"));
@@ -219,8 +226,9 @@ static void test_high_orders(void)
     galv_box box = {{0, 0, 0}, {1, 1, 1}};
     double lower = 0, upper = 1, x = 1, d[3];
     galv_shape *shape = NULL;
-    CU_ASSERT_EQUAL_FATAL(galv_shape_sine(1, &function, &box, &lower, &upper, GALV_LINEAR, &shape),
-                          GALV_OK);
+    CU_ASSERT_EQUAL_FATAL(
+        galv_shape_sine(1, &function, &box, &lower, &upper, GALV_COMBINATION_LINEAR, &shape),
+        GALV_OK);
     for (int k = 0; k < 64; k++) {
         double on[3] = {0.5, k / 4096.0, 0.5}, between[3] = {0.5, (k + 0.5) / 4096, 0.5};
         galv_shape_displace(shape, 1, on, &x, d);

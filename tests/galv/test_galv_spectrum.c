@@ -98,44 +98,44 @@ static void compare(galv_combination combination, size_t count, galv_method meth
 
 static void test_covariance_side(void)
 {
-    compare(GALV_RECURSIVE, 400, GALV_METHOD_COVARIANCE, false, false, 1e-14);
-    compare(GALV_LINEAR, 400, GALV_METHOD_COVARIANCE, false, false, 1e-14);
-    compare(GALV_RECURSIVE, 60, GALV_METHOD_COVARIANCE, false, false, 1e-14);
+    compare(GALV_COMBINATION_RECURSIVE, 400, GALV_METHOD_COVARIANCE, false, false, 1e-14);
+    compare(GALV_COMBINATION_LINEAR, 400, GALV_METHOD_COVARIANCE, false, false, 1e-14);
+    compare(GALV_COMBINATION_RECURSIVE, 60, GALV_METHOD_COVARIANCE, false, false, 1e-14);
 }
 
 static void test_gram_side(void)
 {
-    compare(GALV_RECURSIVE, 100, GALV_METHOD_GRAM, false, false, 1e-14);
-    compare(GALV_LINEAR, 400, GALV_METHOD_GRAM, false, false, 1e-14);
-    compare(GALV_RECURSIVE, 700, GALV_METHOD_GRAM, false, false, 1e-14);
+    compare(GALV_COMBINATION_RECURSIVE, 100, GALV_METHOD_GRAM, false, false, 1e-14);
+    compare(GALV_COMBINATION_LINEAR, 400, GALV_METHOD_GRAM, false, false, 1e-14);
+    compare(GALV_COMBINATION_RECURSIVE, 700, GALV_METHOD_GRAM, false, false, 1e-14);
 }
 
 static void test_randomised(void)
 {
-    compare(GALV_RECURSIVE, 400, GALV_METHOD_RANDOMISED, false, false, 1e-11);
-    compare(GALV_LINEAR, 400, GALV_METHOD_RANDOMISED, false, false, 1e-11);
+    compare(GALV_COMBINATION_RECURSIVE, 400, GALV_METHOD_RANDOMISED, false, false, 1e-11);
+    compare(GALV_COMBINATION_LINEAR, 400, GALV_METHOD_RANDOMISED, false, false, 1e-11);
 }
 
 static void test_factored(void)
 {
-    compare(GALV_LINEAR, 400, GALV_METHOD_FACTORED, false, false, 1e-14);
-    compare(GALV_LINEAR, 400, GALV_METHOD_FACTORED, true, true, 1e-14);
-    compare(GALV_LINEAR, 15, GALV_METHOD_FACTORED, true, false, 1e-14);
-    compare(GALV_LINEAR, 400, GALV_METHOD_AUTO, true, false, 1e-14);
+    compare(GALV_COMBINATION_LINEAR, 400, GALV_METHOD_FACTORED, false, false, 1e-14);
+    compare(GALV_COMBINATION_LINEAR, 400, GALV_METHOD_FACTORED, true, true, 1e-14);
+    compare(GALV_COMBINATION_LINEAR, 15, GALV_METHOD_FACTORED, true, false, 1e-14);
+    compare(GALV_COMBINATION_LINEAR, 400, GALV_METHOD_AUTO, true, false, 1e-14);
 }
 
 static void test_centred(void)
 {
-    compare(GALV_RECURSIVE, 300, GALV_METHOD_COVARIANCE, true, false, 1e-14);
-    compare(GALV_RECURSIVE, 100, GALV_METHOD_GRAM, true, false, 1e-14);
-    compare(GALV_RECURSIVE, 300, GALV_METHOD_RANDOMISED, true, false, 1e-11);
+    compare(GALV_COMBINATION_RECURSIVE, 300, GALV_METHOD_COVARIANCE, true, false, 1e-14);
+    compare(GALV_COMBINATION_RECURSIVE, 100, GALV_METHOD_GRAM, true, false, 1e-14);
+    compare(GALV_COMBINATION_RECURSIVE, 300, GALV_METHOD_RANDOMISED, true, false, 1e-11);
 }
 
 static void test_weighted(void)
 {
-    compare(GALV_RECURSIVE, 300, GALV_METHOD_COVARIANCE, false, true, 1e-14);
-    compare(GALV_RECURSIVE, 100, GALV_METHOD_GRAM, true, true, 1e-14);
-    compare(GALV_RECURSIVE, 300, GALV_METHOD_RANDOMISED, true, true, 1e-11);
+    compare(GALV_COMBINATION_RECURSIVE, 300, GALV_METHOD_COVARIANCE, false, true, 1e-14);
+    compare(GALV_COMBINATION_RECURSIVE, 100, GALV_METHOD_GRAM, true, true, 1e-14);
+    compare(GALV_COMBINATION_RECURSIVE, 300, GALV_METHOD_RANDOMISED, true, true, 1e-11);
 }
 
 /* Linear: C = Psi^T A Psi with A = X^T X / N, so its non-zero eigenvalues are those of the 27 x 27
@@ -143,7 +143,7 @@ static void test_weighted(void)
 static void test_linear_equals_closed_form(void)
 {
     enum { COUNT = 2000 };
-    galv_shape *shape = fixture_shape(GALV_LINEAR, 0.03);
+    galv_shape *shape = fixture_shape(GALV_COMBINATION_LINEAR, 0.03);
     fixture_grid(grid);
     double *x = fixture_samples(shape, COUNT, 9);
     const lapack_int n = FUNCTIONS, length = 3 * POINTS;
@@ -195,7 +195,7 @@ static void test_iteration_equals_full_decomposition(void)
             p[1] = 0.4 * (0.1 + 3 * s * (1 - s)) * (1 - t * t);
             p[2] = -0.3 * t;
         }
-    galv_shape *shape = fixture_shape(GALV_RECURSIVE, 0.03);
+    galv_shape *shape = fixture_shape(GALV_COMBINATION_RECURSIVE, 0.03);
     galv_model *part = NULL, *whole = NULL;
     galv_options options;
     galv_options_init(&options);
@@ -227,7 +227,7 @@ static void test_iteration_equals_full_decomposition(void)
 static void test_residuals_bound_errors(void)
 {
     enum { COUNT = 500 };
-    galv_shape *shape = fixture_shape(GALV_RECURSIVE, 0.03);
+    galv_shape *shape = fixture_shape(GALV_COMBINATION_RECURSIVE, 0.03);
     struct reference r = make_reference(shape, COUNT, false, NULL);
     galv_options options;
     galv_options_init(&options);
@@ -251,9 +251,9 @@ static void test_residuals_bound_errors(void)
 
 /* Coordinates that start to move late join the covariance with zeros: a callback that moves point p
  * only from sample p on. */
-static int late(void *context, size_t npoints, const double *xyz, const double *x, double *d)
+static int late(void *user_data, size_t npoints, const double *xyz, const double *x, double *d)
 {
-    (void)context;
+    (void)user_data;
     (void)xyz;
     for (size_t i = 0; i < 3 * npoints; i++)
         d[i] = 3 * x[0] >= (double)i ? sin(x[0] * (double)(i + 1)) : 0;

@@ -39,7 +39,7 @@ static void test_defaults(void)
     CU_ASSERT_TRUE(isnan(c.displacement));
     CU_ASSERT_EQUAL(c.variance, 0.95);
     CU_ASSERT_EQUAL(c.solver.froude, 0.3);
-    CU_ASSERT_EQUAL(c.solver.formulation, IGABEM_AUTOMATIC);
+    CU_ASSERT_EQUAL(c.solver.formulation, IGABEM_FORMULATION_AUTO);
     CU_ASSERT_PTR_NOT_NULL(strstr(c.hull, folder));
     config_free(&c);
 }
@@ -69,7 +69,7 @@ static void test_all_fields(void)
     CU_ASSERT_EQUAL(c.tolerance, 1e-3);
     CU_ASSERT_EQUAL(c.solver.gravity, 9.8);
     CU_ASSERT_EQUAL(c.solver.density, 1025);
-    CU_ASSERT_EQUAL(c.solver.formulation, IGABEM_HOGNER);
+    CU_ASSERT_EQUAL(c.solver.formulation, IGABEM_FORMULATION_HOGNER);
     CU_ASSERT_EQUAL(c.solver.refine, 2);
     CU_ASSERT_EQUAL(c.solver.elements_u, 30);
     CU_ASSERT_EQUAL(c.solver.elements_v, -1);

@@ -117,7 +117,7 @@ static void test_plan(void)
     struct verification rows[VERIFY_MOST];
     igabem_options_init(&frozen);
     frozen.froude = 0.35;
-    frozen.formulation = IGABEM_NEUMANN_KELVIN_STERN;
+    frozen.formulation = IGABEM_FORMULATION_NEUMANN_KELVIN_STERN;
     frozen.stern_length = 0.35;
     frozen.cutoff_angle = 5.0;
     frozen.stem_limit = 0.35;
@@ -140,7 +140,7 @@ static void test_plan(void)
     }
     CU_ASSERT_EQUAL(options[n - 2].stern_length, 0.224);
     CU_ASSERT_EQUAL(rows[n - 2].stern_length, 0.224);
-    frozen.formulation = IGABEM_NEUMANN_KELVIN;
+    frozen.formulation = IGABEM_FORMULATION_NEUMANN_KELVIN;
     config.verify_refine = 1;
     config.verify_froudes = 0;
     CU_ASSERT_EQUAL(verify_plan(&config, &frozen, speeds, rows, options), 1 + 4 + 1);

@@ -17,10 +17,12 @@ static igabem_hull *wetted_hull(double simplify)
     CU_ASSERT_EQUAL_FATAL(nurbs_patches_read(EXAMPLES_DIR "/hulls/dtmb5415.json", &file), NURBS_OK);
     CU_ASSERT_EQUAL_FATAL(
         nurbs_surface_wetted(nurbs_patches_get(file, 0), 0.0, 1e-5 * length, &wetted), NURBS_OK);
-    CU_ASSERT_EQUAL_FATAL(
-        nurbs_surface_simplify(wetted, simplify * length,
-                               NURBS_KEEP_EDGES | NURBS_KEEP_KINKS | NURBS_THRIFTY, &light, &bound),
-        NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_simplify(wetted, simplify * length,
+                                                 NURBS_SIMPLIFY_KEEP_EDGES |
+                                                     NURBS_SIMPLIFY_KEEP_KINKS |
+                                                     NURBS_SIMPLIFY_THRIFTY,
+                                                 &light, &bound),
+                          NURBS_OK);
     CU_ASSERT_EQUAL_FATAL(
         igabem_hull_create((const nurbs_surface *const *)&light, 1, IGABEM_SYMMETRIC, &hull),
         IGABEM_OK);
@@ -47,7 +49,8 @@ static double resistance(const igabem_hull *hull, int nu, int nv)
     if (status != IGABEM_OK)
         fprintf(stderr, "solve: %s\n", igabem_last_error());
     CU_ASSERT_EQUAL_FATAL(status, IGABEM_OK);
-    CU_ASSERT_EQUAL(igabem_solution_options(solution)->formulation, IGABEM_NEUMANN_KELVIN_STERN);
+    CU_ASSERT_EQUAL(igabem_solution_options(solution)->formulation,
+                    IGABEM_FORMULATION_NEUMANN_KELVIN_STERN);
     CU_ASSERT_EQUAL_FATAL(igabem_forces_compute(solution, &forces), IGABEM_OK);
     igabem_solution_free(solution);
     printf("\n    %d x %d, %zu unknowns: C_w %.4e, condition %.0f, %.2f s", nu, nv, forces.dofs,

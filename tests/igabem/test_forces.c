@@ -147,7 +147,7 @@ static void attitude_of_double_body(void)
     igabem_options options;
     igabem_options_init(&options);
     options.froude = 0.3;
-    options.formulation = IGABEM_DOUBLE_BODY_KOCHIN;
+    options.formulation = IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN;
     igabem_forces forces = forces_of(hull, &options);
     CU_ASSERT(forces.sinkage > 0);
     CHECK_CLOSE(forces.trim, 0.0, 1e-6);

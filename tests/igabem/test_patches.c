@@ -267,7 +267,7 @@ static void elements_are_shared(void)
     cut(&body, 0, 1, 0.5);
     turn(&body);
     igabem_options options = setting(0.35, 8, 4);
-    options.formulation = IGABEM_HOGNER;
+    options.formulation = IGABEM_FORMULATION_HOGNER;
     igabem_forces forces = solve(hull_of(&body, IGABEM_SYMMETRIC), &options, NULL);
     CU_ASSERT_EQUAL(forces.dofs, 2 * (2 + 3) * (2 + 3) + 2 * (6 + 3) * (2 + 3));
     options.refine = 2;

@@ -44,8 +44,8 @@ static void test_names(void)
 {
     igabem_formulation f;
     CU_ASSERT_TRUE(igabem_formulation_parse("hogner", &f));
-    CU_ASSERT_EQUAL(f, IGABEM_HOGNER);
-    CU_ASSERT_STRING_EQUAL(igabem_formulation_name(IGABEM_NEUMANN_KELVIN_STERN),
+    CU_ASSERT_EQUAL(f, IGABEM_FORMULATION_HOGNER);
+    CU_ASSERT_STRING_EQUAL(igabem_formulation_name(IGABEM_FORMULATION_NEUMANN_KELVIN_STERN),
                            "neumann-kelvin-stern");
     CU_ASSERT_FALSE(igabem_formulation_parse("kelvin", &f));
     CU_ASSERT_PTR_NULL(igabem_formulation_name((igabem_formulation)99));
@@ -63,7 +63,7 @@ static void test_freeze(void)
     CU_ASSERT_EQUAL(igabem_options_freeze(wigley, &options), IGABEM_OK);
     CHECK_CLOSE(options.cutoff_angle, 1.2 / info.nu_s, 1e-12);
     CHECK_CLOSE(options.stem_limit, 2.0 * info.nu_s, 1e-12);
-    CU_ASSERT_EQUAL(options.formulation, IGABEM_NEUMANN_KELVIN);
+    CU_ASSERT_EQUAL(options.formulation, IGABEM_FORMULATION_NEUMANN_KELVIN);
     CU_ASSERT_EQUAL(options.refine_v, 1);
     CU_ASSERT_EQUAL(options.elements_u, 0);
     CU_ASSERT_EQUAL(options.line_term, 1);
@@ -111,9 +111,9 @@ static void test_many(void)
     for (int k = 0; k < N; k++)
         options[k] = setting(6, 2);
     options[1].froude = 0.4;
-    options[2].formulation = IGABEM_NEUMANN_KELVIN_STERN;
-    options[3].formulation = IGABEM_DOUBLE_BODY_KOCHIN;
-    options[4].formulation = IGABEM_HOGNER;
+    options[2].formulation = IGABEM_FORMULATION_NEUMANN_KELVIN_STERN;
+    options[3].formulation = IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN;
+    options[4].formulation = IGABEM_FORMULATION_HOGNER;
     options[5].elements_u = 5;
     igabem_solution *solutions[N];
     CU_ASSERT_EQUAL_FATAL(igabem_solve_many(hull, N, options, solutions), IGABEM_OK);
@@ -178,7 +178,7 @@ static void test_solvers(void)
         igabem_options options = k < 2 ? setting(12, 4) : setting(6, 6);
         options.sensitivity = 1;
         if (k == 1)
-            options.formulation = IGABEM_NEUMANN_KELVIN_STERN;
+            options.formulation = IGABEM_FORMULATION_NEUMANN_KELVIN_STERN;
         options.solver = IGABEM_SOLVER_LU;
         igabem_solution *lu = solve(hull, &options);
         options.solver = IGABEM_SOLVER_GMRES;
@@ -211,13 +211,13 @@ static void test_stern_limits(void)
 {
     igabem_hull *hull = wigley_hull(0.1, 0.0625, 1, 1);
     igabem_options options = setting(6, 2), stern = options;
-    stern.formulation = IGABEM_NEUMANN_KELVIN_STERN;
+    stern.formulation = IGABEM_FORMULATION_NEUMANN_KELVIN_STERN;
     stern.stern_length = 0.0;
     stern.stern_blend = 0.0;
     double plain = cw_of(hull, &options);
     CHECK_RELATIVE(cw_of(hull, &stern), plain, 1e-12);
     stern.stern_length = 1.0;
-    options.formulation = IGABEM_DOUBLE_BODY_KOCHIN;
+    options.formulation = IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN;
     double body = cw_of(hull, &options);
     CHECK_RELATIVE(cw_of(hull, &stern), body, 1e-12);
     CU_ASSERT(fabs(plain / body - 1.0) > 0.01);
@@ -393,7 +393,7 @@ static void test_progress(void)
     igabem_options options = setting(3, 2);
     double last = 0.0;
     options.progress = cancel_half_way;
-    options.progress_data = &last;
+    options.progress_user_data = &last;
     igabem_solution *solution = NULL;
     CU_ASSERT_EQUAL(igabem_solve(hull, &options, &solution), IGABEM_ERROR_CANCELLED);
     CU_ASSERT_PTR_NULL(solution);
@@ -449,7 +449,7 @@ static void test_refine(void)
     igabem_options options = setting(0, 0);
     igabem_options_refine(hull, 400, &options);
     CU_ASSERT_TRUE(2 * options.refine > options.refine_v); /* spans along, around */
-    options.formulation = IGABEM_HOGNER;
+    options.formulation = IGABEM_FORMULATION_HOGNER;
     igabem_solution *solution = solve(hull, &options);
     size_t dofs = forces_of(solution).dofs;
     CU_ASSERT_TRUE(dofs >= 400 && dofs < 440);

@@ -73,7 +73,7 @@ static void particulars(void)
         igabem_options_init(&options);
         options.froude = 0.35;
         CU_ASSERT_EQUAL(igabem_options_freeze(closed, &options), IGABEM_OK);
-        CU_ASSERT_EQUAL(options.formulation, IGABEM_NEUMANN_KELVIN_STERN);
+        CU_ASSERT_EQUAL(options.formulation, IGABEM_FORMULATION_NEUMANN_KELVIN_STERN);
         CHECK_RELATIVE(options.stem_limit, 1.2 * b.nu_s, 1e-12);
         igabem_hull_free(open);
         igabem_hull_free(closed);
@@ -103,11 +103,11 @@ static igabem_forces solve(int closed, igabem_formulation formulation, int along
  * again. A dry transom adds its hydrostatic pressure, which only an open one lacks. */
 static void flow(void)
 {
-    igabem_forces coarse = solve(1, IGABEM_AUTOMATIC, 12, 4),
-                  fine = solve(1, IGABEM_AUTOMATIC, 18, 6);
-    igabem_forces body = solve(1, IGABEM_DOUBLE_BODY_KOCHIN, 12, 4),
-                  plain = solve(1, IGABEM_NEUMANN_KELVIN, 12, 4),
-                  open = solve(0, IGABEM_AUTOMATIC, 12, 4);
+    igabem_forces coarse = solve(1, IGABEM_FORMULATION_AUTO, 12, 4),
+                  fine = solve(1, IGABEM_FORMULATION_AUTO, 18, 6);
+    igabem_forces body = solve(1, IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN, 12, 4),
+                  plain = solve(1, IGABEM_FORMULATION_NEUMANN_KELVIN, 12, 4),
+                  open = solve(0, IGABEM_FORMULATION_AUTO, 12, 4);
     printf("\n    closed %.3e, %.3e; double body %.3e, neumann-kelvin %.3e; open %.3e", coarse.cw,
            fine.cw, body.cw, plain.cw, open.cw);
     CHECK_RELATIVE(fine.cw, coarse.cw, 0.06);

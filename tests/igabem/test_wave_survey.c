@@ -39,7 +39,7 @@ static void test_shares(void)
     const double draft = 0.0625, froude = 0.3, k0 = 1.0 / (froude * froude);
     const double limit[2] = {0.2, -0.1};
     igabem_hull *hull = wigley_hull(0.1, draft, 12, 3);
-    igabem_solution *solution = solve(hull, froude, IGABEM_MICHELL);
+    igabem_solution *solution = solve(hull, froude, IGABEM_FORMULATION_MICHELL);
     double share[3], sum[3] = {0, 0, 0};
     CU_ASSERT_EQUAL(igabem_wave_shares(solution, 2, limit, share), IGABEM_OK);
     for (double v = 0.0, step = 0.002; v < 3.6; v += step) {
@@ -75,7 +75,7 @@ static void test_limits_on_lines(void)
     CU_ASSERT_EQUAL_FATAL(nurbs_patches_read(EXAMPLES_DIR "/hulls/fast.json", &file), NURBS_OK);
     const nurbs_surface *list[1] = {nurbs_patches_get(file, 0)};
     CU_ASSERT_EQUAL_FATAL(igabem_hull_create(list, 1, IGABEM_SYMMETRIC, &hull), IGABEM_OK);
-    igabem_solution *solution = solve(hull, 0.3, IGABEM_HOGNER);
+    igabem_solution *solution = solve(hull, 0.3, IGABEM_FORMULATION_HOGNER);
     const double limit[2] = {0.66666666666666674, 0.33333333333333331};
     double share[3] = {NAN, NAN, NAN};
     CU_ASSERT_EQUAL(igabem_wave_shares(solution, 2, limit, share), IGABEM_OK);
@@ -89,7 +89,7 @@ static void test_limits_on_lines(void)
 static void test_cut_of_spheroid(void)
 {
     igabem_hull *hull = ellipsoid_hull(1.0, 0.2, 0.2, 0.16, 4, 4);
-    igabem_solution *solution = solve(hull, 0.6, IGABEM_NEUMANN_KELVIN);
+    igabem_solution *solution = solve(hull, 0.6, IGABEM_FORMULATION_NEUMANN_KELVIN);
     igabem_forces forces;
     double cw;
     CU_ASSERT_EQUAL(igabem_forces_compute(solution, &forces), IGABEM_OK);
@@ -104,7 +104,7 @@ static void test_cut_of_spheroid(void)
 static void test_cut_of_wigley(void)
 {
     igabem_hull *hull = wigley_hull(0.1, 0.0625, 16, 4);
-    igabem_solution *solution = solve(hull, 0.35, IGABEM_NEUMANN_KELVIN);
+    igabem_solution *solution = solve(hull, 0.35, IGABEM_FORMULATION_NEUMANN_KELVIN);
     enum { N = 370 };
     const double step = 0.01, t_c = igabem_solution_options(solution)->cutoff_angle;
     double t[N], h[2 * N], dcw[N], cw, sum = 0.0;

@@ -97,7 +97,7 @@ static void test_thin_limit(void)
         igabem_hull *hull = wigley_hull(k ? 0.0025 : 0.005, 0.0625, 1, 1);
         igabem_options options = setting(0.30, 32, 8);
         double cw = resistance(hull, &options);
-        options.formulation = IGABEM_MICHELL;
+        options.formulation = IGABEM_FORMULATION_MICHELL;
         ratio[k] = cw / resistance(hull, &options);
         igabem_hull_free(hull);
     }

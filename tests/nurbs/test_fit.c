@@ -8,18 +8,18 @@ static const double corner[12] = {0, 0, 0, 3, 0, 0, 3, 4, 0, 3, 4, 12};
 static void parametrizations(void)
 {
     double u[4];
-    CU_ASSERT_EQUAL(nurbs_parametrize(NURBS_UNIFORM, 4, corner, u), NURBS_OK);
+    CU_ASSERT_EQUAL(nurbs_parametrize(NURBS_PARAMETRIZATION_UNIFORM, 4, corner, u), NURBS_OK);
     CHECK_CLOSE(u[1], 1.0 / 3, 1e-16);
-    CU_ASSERT_EQUAL(nurbs_parametrize(NURBS_CHORD, 4, corner, u), NURBS_OK);
+    CU_ASSERT_EQUAL(nurbs_parametrize(NURBS_PARAMETRIZATION_CHORD, 4, corner, u), NURBS_OK);
     CHECK_CLOSE(u[1], 3.0 / 19, 1e-16);
     CHECK_CLOSE(u[2], 7.0 / 19, 1e-16);
-    CU_ASSERT_EQUAL(nurbs_parametrize(NURBS_CENTRIPETAL, 4, corner, u), NURBS_OK);
+    CU_ASSERT_EQUAL(nurbs_parametrize(NURBS_PARAMETRIZATION_CENTRIPETAL, 4, corner, u), NURBS_OK);
     double total = sqrt(3) + 2 + sqrt(12);
     CHECK_CLOSE(u[1], sqrt(3) / total, 1e-15);
     CHECK_CLOSE(u[3], 1, 0);
     /* Foley: right angles stretch by 1 + 1.5 (pi/2) d_before / (d_before + d) and likewise after.
      */
-    CU_ASSERT_EQUAL(nurbs_parametrize(NURBS_FOLEY, 4, corner, u), NURBS_OK);
+    CU_ASSERT_EQUAL(nurbs_parametrize(NURBS_PARAMETRIZATION_FOLEY, 4, corner, u), NURBS_OK);
     double a = 1.5 * acos(0), first = 3 * (1 + a * 4 / 7),
            second = 4 * (1 + a * 3 / 7 + a * 12 / 16), third = 12 * (1 + a * 4 / 16);
     CHECK_CLOSE(u[1], first / (first + second + third), 1e-15);
@@ -29,15 +29,15 @@ static void parametrizations(void)
 static void coincident_points(void)
 {
     double p[12] = {0, 0, 0, 1, 0, 0, 1, 0, 0, 2, 0, 0}, u[4];
-    CU_ASSERT_EQUAL(nurbs_parametrize(NURBS_CHORD, 4, p, u), NURBS_OK);
+    CU_ASSERT_EQUAL(nurbs_parametrize(NURBS_PARAMETRIZATION_CHORD, 4, p, u), NURBS_OK);
     CHECK_CLOSE(u[1], 0.5, 0);
     CHECK_CLOSE(u[2], 0.5, 0);
     double same[9] = {1, 1, 1, 1, 1, 1, 1, 1, 1};
-    CU_ASSERT_EQUAL(nurbs_parametrize(NURBS_CENTRIPETAL, 3, same, u), NURBS_OK);
+    CU_ASSERT_EQUAL(nurbs_parametrize(NURBS_PARAMETRIZATION_CENTRIPETAL, 3, same, u), NURBS_OK);
     CHECK_CLOSE(u[1], 0.5, 0);
     p[4] = INFINITY;
-    CU_ASSERT_EQUAL(nurbs_parametrize(NURBS_CHORD, 4, p, u), NURBS_ERROR_ARGUMENT);
-    CU_ASSERT_EQUAL(nurbs_parametrize(NURBS_CHORD, 1, p, u), NURBS_ERROR_ARGUMENT);
+    CU_ASSERT_EQUAL(nurbs_parametrize(NURBS_PARAMETRIZATION_CHORD, 4, p, u), NURBS_ERROR_ARGUMENT);
+    CU_ASSERT_EQUAL(nurbs_parametrize(NURBS_PARAMETRIZATION_CHORD, 1, p, u), NURBS_ERROR_ARGUMENT);
 }
 
 /* Points of a polynomial of the curve's degree give that polynomial back. */
@@ -69,7 +69,7 @@ static void interpolation_of_the_book(void)
 {
     const double p[15] = {0, 0, 0, 3, 4, 0, -1, 4, 0, -4, 0, 0, -4, -3, 0};
     double u[5];
-    CU_ASSERT_EQUAL(nurbs_parametrize(NURBS_CHORD, 5, p, u), NURBS_OK);
+    CU_ASSERT_EQUAL(nurbs_parametrize(NURBS_PARAMETRIZATION_CHORD, 5, p, u), NURBS_OK);
     CHECK_CLOSE(u[1], 5.0 / 17, 1e-15);
     CHECK_CLOSE(u[2], 9.0 / 17, 1e-15);
     CHECK_CLOSE(u[3], 14.0 / 17, 1e-15);

@@ -151,8 +151,8 @@ static void test_between_two_facts(void)
             for (unsigned thrifty = 0; thrifty < 2; thrifty++) {
                 double bound, worst = 0.0;
                 CU_ASSERT_EQUAL_FATAL(nurbs_surface_simplify(s, tolerance,
-                                                             thrifty ? NURBS_THRIFTY : 0, &reduced,
-                                                             &bound),
+                                                             thrifty ? NURBS_SIMPLIFY_THRIFTY : 0,
+                                                             &reduced, &bound),
                                       NURBS_OK);
                 const double lower =
                     fmax(lower_bound(s, reduced, 0, &worst), lower_bound(s, reduced, 1, &worst));

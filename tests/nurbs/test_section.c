@@ -115,7 +115,8 @@ static void modified_hulls_stay_on_their_side(void)
         CU_ASSERT_EQUAL_FATAL(nurbs_surface_wetted(skin, 0, 1.144e-4, &wet), NURBS_OK);
         check_edges(wet, 0);
         CU_ASSERT_EQUAL_FATAL(
-            nurbs_surface_simplify(wet, 5.72e-4, NURBS_KEEP_EDGES | NURBS_THRIFTY, &light, &bound),
+            nurbs_surface_simplify(wet, 5.72e-4, NURBS_SIMPLIFY_KEEP_EDGES | NURBS_SIMPLIFY_THRIFTY,
+                                   &light, &bound),
             NURBS_OK);
         CU_ASSERT(lowest_y(light, 301) >= 0);
         CU_ASSERT_EQUAL(nurbs_surface_check_fold(light, NULL), NURBS_OK);

@@ -124,8 +124,8 @@ static void test_reduction_against_a_peer(void)
             size_t counts[2];
             for (unsigned thrifty = 0; thrifty < 2; thrifty++) {
                 CU_ASSERT_EQUAL_FATAL(nurbs_surface_simplify(surface, tolerance,
-                                                             thrifty ? NURBS_THRIFTY : 0, &result,
-                                                             &bound),
+                                                             thrifty ? NURBS_SIMPLIFY_THRIFTY : 0,
+                                                             &result, &bound),
                                       NURBS_OK);
                 CU_ASSERT(sampled_surface(surface, result) <= bound);
                 CU_ASSERT(bound <= tolerance);
@@ -223,8 +223,8 @@ static void test_bound_is_certified(void)
             const double tolerance = (double[]){3e-3, 1e-2, 5e-2}[t];
             for (unsigned thrifty = 0; thrifty < 2; thrifty++) {
                 CU_ASSERT_EQUAL_FATAL(nurbs_surface_simplify(s, tolerance,
-                                                             thrifty ? NURBS_THRIFTY : 0, &simple,
-                                                             &bound),
+                                                             thrifty ? NURBS_SIMPLIFY_THRIFTY : 0,
+                                                             &simple, &bound),
                                       NURBS_OK);
                 CU_ASSERT(bound <= tolerance);
                 CU_ASSERT(sampled_surface(s, simple) <= bound);
@@ -278,7 +278,7 @@ static void test_edges_stay(void)
     nurbs_surface *hull = half_hull(0), *simple;
     for (int k = 0; k < 8; k++) {
         const int t = k / 2;
-        const unsigned flags = NURBS_KEEP_EDGES | (k % 2 ? NURBS_THRIFTY : 0);
+        const unsigned flags = NURBS_SIMPLIFY_KEEP_EDGES | (k % 2 ? NURBS_SIMPLIFY_THRIFTY : 0);
         const double tolerance = (double[]){1e-5, 1e-4, 1e-3, 1e-2}[t];
         double bound;
         CU_ASSERT_EQUAL_FATAL(nurbs_surface_simplify(hull, tolerance, flags, &simple, &bound),
@@ -313,7 +313,8 @@ static void test_kinks_stay(void)
     const double kink = nurbs_surface_knots(hull, 0)[31];
     double bound;
     for (unsigned thrifty = 0; thrifty < 2; thrifty++) {
-        const unsigned flags = NURBS_KEEP_KINKS | NURBS_KEEP_EDGES | (thrifty ? NURBS_THRIFTY : 0);
+        const unsigned flags = NURBS_SIMPLIFY_KEEP_KINKS | NURBS_SIMPLIFY_KEEP_EDGES |
+                               (thrifty ? NURBS_SIMPLIFY_THRIFTY : 0);
         CU_ASSERT_EQUAL_FATAL(nurbs_surface_simplify(hull, 5e-2, flags, &simple, &bound), NURBS_OK);
         int copies = 0;
         for (size_t k = 0; k < nurbs_surface_size(simple, 0) + 4; k++)
@@ -380,9 +381,11 @@ static void test_geometric_mode(void)
         points[3 * (i * NV + NV - 1) + 1] = 0.0;
     CU_ASSERT_EQUAL_FATAL(nurbs_surface_create(degree, size, ku, kv, points, NULL, &s), NURBS_OK);
     CU_ASSERT_EQUAL_FATAL(
-        nurbs_surface_simplify(s, tolerance, NURBS_KEEP_EDGES, &plain, &plain_bound), NURBS_OK);
+        nurbs_surface_simplify(s, tolerance, NURBS_SIMPLIFY_KEEP_EDGES, &plain, &plain_bound),
+        NURBS_OK);
     CU_ASSERT_EQUAL_FATAL(
-        nurbs_surface_simplify_geometric(s, tolerance, NURBS_KEEP_EDGES, &even, &bound), NURBS_OK);
+        nurbs_surface_simplify_geometric(s, tolerance, NURBS_SIMPLIFY_KEEP_EDGES, &even, &bound),
+        NURBS_OK);
     CU_ASSERT(bound <= tolerance);
     CU_ASSERT(5 * nurbs_surface_size(even, 0) * nurbs_surface_size(even, 1) <
               3 * nurbs_surface_size(plain, 0) * nurbs_surface_size(plain, 1));
@@ -401,8 +404,9 @@ static void test_geometric_mode(void)
     for (size_t i = 0; i < nurbs_surface_size(even, 0); i++)
         CU_ASSERT_EQUAL(nurbs_surface_points(even)[3 * (i * nv + nv - 1) + 1], 0.0);
     nurbs_surface_free(even);
-    CU_ASSERT_EQUAL(nurbs_surface_simplify_geometric(s, 1.0, NURBS_KEEP_KINKS, &even, NULL),
-                    NURBS_ERROR_ARGUMENT);
+    CU_ASSERT_EQUAL(
+        nurbs_surface_simplify_geometric(s, 1.0, NURBS_SIMPLIFY_KEEP_KINKS, &even, NULL),
+        NURBS_ERROR_ARGUMENT);
     CU_ASSERT_PTR_NULL(even);
     nurbs_surface_free(s);
     nurbs_surface_free(plain);

@@ -25,7 +25,8 @@ static void passes_through_every_point(void)
     struct hull5415 hull;
     CU_ASSERT_FATAL(hull5415_load(&hull));
     for (int degree = 1; degree <= 5; degree++)
-        for (int kind = NURBS_UNIFORM; kind <= NURBS_FOLEY; kind++) {
+        for (int kind = NURBS_PARAMETRIZATION_UNIFORM; kind <= NURBS_PARAMETRIZATION_FOLEY;
+             kind++) {
             nurbs_skin_options options;
             nurbs_surface *surface;
             nurbs_skin_options_init(&options);
@@ -222,7 +223,8 @@ static size_t own_sections(const struct hull5415 *hull, nurbs_curve **sections)
     double u[64];
     for (size_t i = 0; i < rows; i++) {
         const double *p = nurbs_grid_points(hull->grid) + 3 * columns * i;
-        CU_ASSERT_EQUAL_FATAL(nurbs_parametrize(NURBS_CHORD, columns, p, u), NURBS_OK);
+        CU_ASSERT_EQUAL_FATAL(nurbs_parametrize(NURBS_PARAMETRIZATION_CHORD, columns, p, u),
+                              NURBS_OK);
         CU_ASSERT_EQUAL_FATAL(nurbs_curve_interpolate(3, columns, p, u, &sections[i]), NURBS_OK);
     }
     return rows;
@@ -337,7 +339,7 @@ static void chine_of_a_prism(void)
         nurbs_skin_options options;
         nurbs_surface *surface;
         nurbs_skin_options_init(&options);
-        options.parametrize = NURBS_CHORD;
+        options.parametrize = NURBS_PARAMETRIZATION_CHORD;
         options.chine_count = (size_t)named;
         options.chine = &chine;
         CU_ASSERT_EQUAL_FATAL(nurbs_skin(grid, &options, &surface), NURBS_OK);
@@ -385,8 +387,8 @@ static void chine_that_fades(void)
         CHECK_CLOSE(girth_jump(surface, u[i], v[CHINE]), turn, 0.1);
     for (size_t i = 16; i < HARD_ROWS; i++)
         CU_ASSERT(girth_jump(surface, u[i], v[CHINE]) < 1e-6);
-    CU_ASSERT_EQUAL_FATAL(nurbs_surface_simplify(surface, 1e-3, NURBS_KEEP_KINKS, &light, &bound),
-                          NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(
+        nurbs_surface_simplify(surface, 1e-3, NURBS_SIMPLIFY_KEEP_KINKS, &light, &bound), NURBS_OK);
     CU_ASSERT(bound <= 1e-3);
     CHECK_CLOSE(girth_jump(light, 0.2, v[CHINE]), turn, 0.15);
     nurbs_surface_free(light);

@@ -115,10 +115,10 @@ static bool read_direction(const char *path, const char *field, const char *text
 
 static bool read_combination(const char *path, const char *text, galv_combination *out)
 {
-    *out = GALV_RECURSIVE;
+    *out = GALV_COMBINATION_RECURSIVE;
     if (!text || strcmp(text, "recursive") == 0)
         return true;
-    *out = GALV_LINEAR;
+    *out = GALV_COMBINATION_LINEAR;
     if (strcmp(text, "linear") == 0)
         return true;
     cli_yaml_fail(path, "combination", "is '%s', expected recursive or linear", text);

@@ -25,9 +25,9 @@ static void prepend_field(struct report *report, const char *name)
         memcpy(report->field, joined, (size_t)length + 1);
 }
 
-static void collect(cyaml_log_t level, void *context, const char *format, va_list args)
+static void collect(cyaml_log_t level, void *user_data, const char *format, va_list args)
 {
-    struct report *report = context;
+    struct report *report = user_data;
     char text[256], name[128];
     unsigned line;
     if (level < CYAML_LOG_ERROR)

@@ -43,7 +43,7 @@ static int print_text(const struct model_file *file)
     if (file->girth)
         printf(" (%zu x %zu)", file->sections, file->girth);
     printf(", %zu %s parameters of %s\n", d.parameters,
-           file->shape.combination == GALV_RECURSIVE && file->shape.kind == SHAPE_SINES
+           file->shape.combination == GALV_COMBINATION_RECURSIVE && file->shape.kind == SHAPE_SINES
                ? "recursive"
                : "linear",
            file->shape.kind == SHAPE_SINES ? "sine products" : "a lattice");

@@ -141,9 +141,9 @@ static bool append_quantities(struct reduce_options *options, struct reduction *
     return true;
 }
 
-static int show_progress(void *context, double fraction)
+static int show_progress(void *user_data, double fraction)
 {
-    cli_progress_update(context, fraction, "");
+    cli_progress_update(user_data, fraction, "");
     return 0;
 }
 
@@ -153,7 +153,7 @@ static bool build(struct reduce_options *options, struct reduction *r, double *s
     cli_progress_start(&progress, "samples");
     options->build.weights = r->weights;
     options->build.progress = show_progress;
-    options->build.progress_context = &progress;
+    options->build.progress_user_data = &progress;
     double start = cli_seconds();
     galv_status status =
         galv_build(r->shape, r->hull.npoints, r->hull.xyz, choose_sampling(options, r, SIZE_MAX),

@@ -36,8 +36,9 @@ static bool build(const struct parent *parent, const nurbs_grid *grid, double to
         return failure_set(failure, "skin", "%s", nurbs_last_error());
     if (nurbs_surface_wetted(design->full, 0, CUT_SHARE * distance, &design->wetted) != NURBS_OK)
         return failure_set(failure, "waterline", "%s", nurbs_last_error());
-    if (nurbs_surface_simplify(design->wetted, distance, NURBS_KEEP_EDGES | NURBS_THRIFTY,
-                               &design->light, &design->bound) != NURBS_OK)
+    if (nurbs_surface_simplify(design->wetted, distance,
+                               NURBS_SIMPLIFY_KEEP_EDGES | NURBS_SIMPLIFY_THRIFTY, &design->light,
+                               &design->bound) != NURBS_OK)
         return failure_set(failure, "simplify", "%s", nurbs_last_error());
     const nurbs_surface *wetted = design->wetted;
     if (nurbs_hydrostatics_compute(1, &wetted, 0, &design->hydrostatics) != NURBS_OK)

@@ -62,7 +62,8 @@ bool evaluate_build(struct evaluator *evaluator, const double *u, struct design 
 
 static bool has_pressure(igabem_formulation formulation)
 {
-    return formulation == IGABEM_NEUMANN_KELVIN || formulation == IGABEM_NEUMANN_KELVIN_STERN;
+    return formulation == IGABEM_FORMULATION_NEUMANN_KELVIN ||
+           formulation == IGABEM_FORMULATION_NEUMANN_KELVIN_STERN;
 }
 
 bool evaluator_create(const struct config *config, const struct parent *parent,

@@ -61,7 +61,8 @@ static bool write_hulls(const struct results *r, const char *json, const char *i
 {
     nurbs_surface *hull = NULL;
     if (nurbs_surface_simplify(r->designs[1].full, HULL_TOLERANCE * r->parent.length,
-                               NURBS_KEEP_EDGES | NURBS_THRIFTY, &hull, NULL) != NURBS_OK)
+                               NURBS_SIMPLIFY_KEEP_EDGES | NURBS_SIMPLIFY_THRIFTY, &hull,
+                               NULL) != NURBS_OK)
         return cli_fail("best.json: %s", nurbs_last_error()) == CLI_OK;
     bool ok = write_patch(r, hull, "optimised hull up to the deck", json) &&
               write_patch(r, hull, "optimised hull up to the deck", iges) &&

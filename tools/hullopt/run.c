@@ -17,9 +17,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int show_fraction(void *context, double fraction)
+static int show_fraction(void *user_data, double fraction)
 {
-    cli_progress_update(context, fraction, NULL);
+    cli_progress_update(user_data, fraction, NULL);
     return 0;
 }
 
@@ -31,7 +31,7 @@ static bool build_model(const struct config *config, const struct parent *parent
     galv_options_init(&options);
     options.variance = config->variance;
     options.progress = show_fraction;
-    options.progress_context = &progress;
+    options.progress_user_data = &progress;
     size_t points = nurbs_grid_rows(parent->grid) * nurbs_grid_columns(parent->grid);
     cli_progress_start(&progress, "latent space");
     galv_status status =

@@ -59,7 +59,7 @@ bool search_create(const struct config *config, struct evaluator *evaluator, con
     options.strategy = config->strategy;
     options.n_input_constraints = count_limits(config);
     options.input_constraint = known_limits;
-    options.input_data = search;
+    options.input_user_data = search;
     double bound[OUTCOME_MOST];
     options.n_constraints = outcome_bounds(&evaluator->limits, evaluator->speeds, bound);
     options.constraint_upper = bound;

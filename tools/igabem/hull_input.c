@@ -138,7 +138,8 @@ static nurbs_status simplify_patch(nurbs_surface **surface, double tolerance, do
     nurbs_surface *light;
     double distance;
     nurbs_status status = nurbs_surface_simplify(
-        *surface, tolerance, NURBS_KEEP_EDGES | NURBS_KEEP_KINKS | NURBS_THRIFTY, &light,
+        *surface, tolerance,
+        NURBS_SIMPLIFY_KEEP_EDGES | NURBS_SIMPLIFY_KEEP_KINKS | NURBS_SIMPLIFY_THRIFTY, &light,
         &distance);
     if (status)
         return status;

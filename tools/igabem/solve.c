@@ -64,11 +64,11 @@ static size_t formulations(const struct solve_request *request, const igabem_hul
         return n;
     }
     if (info->transom)
-        list[n++] = IGABEM_NEUMANN_KELVIN_STERN;
-    list[n++] = IGABEM_NEUMANN_KELVIN;
-    list[n++] = IGABEM_DOUBLE_BODY_KOCHIN;
-    list[n++] = IGABEM_HOGNER;
-    list[n++] = IGABEM_MICHELL;
+        list[n++] = IGABEM_FORMULATION_NEUMANN_KELVIN_STERN;
+    list[n++] = IGABEM_FORMULATION_NEUMANN_KELVIN;
+    list[n++] = IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN;
+    list[n++] = IGABEM_FORMULATION_HOGNER;
+    list[n++] = IGABEM_FORMULATION_MICHELL;
     return n;
 }
 
@@ -133,7 +133,8 @@ static igabem_status survey(const struct solve_run *run, const igabem_solution *
     if (status)
         return status;
     igabem_formulation formulation = result->options.formulation;
-    if (formulation == IGABEM_HOGNER || formulation == IGABEM_MICHELL || !run->input->half)
+    if (formulation == IGABEM_FORMULATION_HOGNER || formulation == IGABEM_FORMULATION_MICHELL ||
+        !run->input->half)
         return IGABEM_OK;
     return igabem_wave_cut(solution, NAN, &result->cw_cut);
 }
@@ -161,7 +162,7 @@ static int solve_level(struct solve_run *run, size_t level, igabem_options *opti
     fill_options(run, level, options);
     for (size_t c = 0; c < run->cases; c++) {
         options[c].progress = report_progress;
-        options[c].progress_data = progress;
+        options[c].progress_user_data = progress;
     }
     igabem_status status = igabem_solve_many(run->input->hull, run->cases, options, solutions);
     for (size_t c = 0; !status && c < run->cases; c++) {
@@ -216,8 +217,8 @@ static void warn(const struct solve_run *run)
     igabem_formulation f = options->formulation;
     const char *text = hull_warning(&run->info);
     if (*text && options->kernel == IGABEM_KERNEL_KELVIN &&
-        (run->request->all || f == IGABEM_AUTOMATIC || f == IGABEM_NEUMANN_KELVIN ||
-         f == IGABEM_NEUMANN_KELVIN_STERN))
+        (run->request->all || f == IGABEM_FORMULATION_AUTO ||
+         f == IGABEM_FORMULATION_NEUMANN_KELVIN || f == IGABEM_FORMULATION_NEUMANN_KELVIN_STERN))
         fprintf(stderr, "igabem: warning: %s: %s\n", run->request->hull.path, text);
 }
 

@@ -84,7 +84,7 @@ static int sample_patch(const igabem_solution *solution, const nurbs_surface *su
     if (igabem_source_density(solution, patch, n, out->uv, out->sigma))
         return cli_fail("%s", igabem_last_error());
     igabem_formulation formulation = igabem_solution_options(solution)->formulation;
-    if (formulation == IGABEM_HOGNER || formulation == IGABEM_MICHELL)
+    if (formulation == IGABEM_FORMULATION_HOGNER || formulation == IGABEM_FORMULATION_MICHELL)
         return CLI_OK; /* no velocity on the hull: zeros */
     if (igabem_surface_velocity(solution, patch, n, out->uv, out->velocity, out->cp))
         return cli_fail("%s", igabem_last_error());

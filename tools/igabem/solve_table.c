@@ -18,7 +18,8 @@ static void print_hull(const struct solve_run *run)
 
 static int solves_waves(igabem_formulation formulation)
 {
-    return formulation == IGABEM_NEUMANN_KELVIN || formulation == IGABEM_NEUMANN_KELVIN_STERN;
+    return formulation == IGABEM_FORMULATION_NEUMANN_KELVIN ||
+           formulation == IGABEM_FORMULATION_NEUMANN_KELVIN_STERN;
 }
 
 /* The formulation with every length and angle that went into the number. */
@@ -26,7 +27,8 @@ static void print_settings(const struct solve_run *run, const struct solve_resul
 {
     const igabem_options *o = &result->options;
     const igabem_forces *f = &result->forces;
-    int line = o->line_term && run->info.surface_piercing && o->formulation != IGABEM_MICHELL;
+    int line =
+        o->line_term && run->info.surface_piercing && o->formulation != IGABEM_FORMULATION_MICHELL;
     if (o->kernel != IGABEM_KERNEL_KELVIN) {
         printf("  %s: no waves\n", o->kernel == IGABEM_KERNEL_RANKINE
                                        ? "kernel rankine, unbounded water"
@@ -46,7 +48,7 @@ static void print_settings(const struct solve_run *run, const struct solve_resul
     }
     if (run->info.surface_piercing)
         printf(", nu_s %.4g", run->info.nu_s);
-    if (o->formulation == IGABEM_NEUMANN_KELVIN_STERN)
+    if (o->formulation == IGABEM_FORMULATION_NEUMANN_KELVIN_STERN)
         printf(", x_s %.4g m", run->info.hydrostatics.x_aft + o->stern_length * run->info.length);
     if (f->iterations > 0)
         printf(", GMRES %zu iterations", f->iterations);

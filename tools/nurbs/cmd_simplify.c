@@ -12,10 +12,11 @@ static int simplify_all(const nurbs_patches *patches, double tolerance, bool geo
         double bound = 0;
         const nurbs_surface *full = nurbs_patches_get(patches, k);
         if (geometric)
-            status = nurbs_surface_simplify_geometric(full, tolerance, NURBS_KEEP_EDGES, &surface,
-                                                      &bound);
+            status = nurbs_surface_simplify_geometric(full, tolerance, NURBS_SIMPLIFY_KEEP_EDGES,
+                                                      &surface, &bound);
         else
-            status = nurbs_surface_simplify(full, tolerance, NURBS_KEEP_EDGES | NURBS_THRIFTY,
+            status = nurbs_surface_simplify(full, tolerance,
+                                            NURBS_SIMPLIFY_KEEP_EDGES | NURBS_SIMPLIFY_THRIFTY,
                                             &surface, &bound);
         /* The geometric mode has a parametrisation of its own. */
         if (status == NURBS_OK)

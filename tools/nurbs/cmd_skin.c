@@ -17,10 +17,10 @@ struct request {
 static const struct {
     const char *name;
     nurbs_parametrization kind;
-} parametrizations[] = {{"uniform", NURBS_UNIFORM},
-                        {"chord", NURBS_CHORD},
-                        {"centripetal", NURBS_CENTRIPETAL},
-                        {"foley", NURBS_FOLEY}};
+} parametrizations[] = {{"uniform", NURBS_PARAMETRIZATION_UNIFORM},
+                        {"chord", NURBS_PARAMETRIZATION_CHORD},
+                        {"centripetal", NURBS_PARAMETRIZATION_CENTRIPETAL},
+                        {"foley", NURBS_PARAMETRIZATION_FOLEY}};
 
 static int parametrization_option(const char *text, nurbs_parametrization *kind)
 {
@@ -123,7 +123,9 @@ static nurbs_status lighten(const nurbs_surface *surface, const nurbs_grid *grid
 {
     nurbs_surface *raised;
     nurbs_status status = nurbs_surface_simplify(
-        surface, tolerance, NURBS_KEEP_EDGES | NURBS_KEEP_KINKS | NURBS_THRIFTY, light, NULL);
+        surface, tolerance,
+        NURBS_SIMPLIFY_KEEP_EDGES | NURBS_SIMPLIFY_KEEP_KINKS | NURBS_SIMPLIFY_THRIFTY, light,
+        NULL);
     if (status != NURBS_OK || !is_half_hull(grid))
         return status;
     status = nurbs_surface_raise_side(*light, &raised, NULL);

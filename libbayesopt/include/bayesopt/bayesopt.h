@@ -76,7 +76,8 @@ BAYESOPT_API const char *bayesopt_state_name(bayesopt_state state);
 BAYESOPT_API const char *bayesopt_strategy_name(bayesopt_strategy strategy);
 
 /** Options of bayesopt_create(); fill with bayesopt_options_init() first. Arrays are borrowed until
- * bayesopt_create() returns, which copies them; input_data is borrowed for the object's life. */
+ * bayesopt_create() returns, which copies them; input_user_data is borrowed for the object's life.
+ */
 typedef struct bayesopt_options {
     uint64_t seed;          /**< of every random stream; default 1 */
     size_t max_evaluations; /**< budget: initial, failed and told points included; default 0 = twice
@@ -93,7 +94,7 @@ typedef struct bayesopt_options {
 
     size_t n_input_constraints;                 /**< values of input_constraint; default 0 */
     bayesopt_input_constraint input_constraint; /**< known before evaluation; see design.h */
-    void *input_data;                           /**< passed to input_constraint */
+    void *input_user_data;                      /**< passed to input_constraint */
     size_t n_linear;                            /**< rows of linear_a x <= linear_b; default 0 */
     const double *linear_a;                     /**< [n_linear x d], row by row */
     const double *linear_b;                     /**< [n_linear] */
@@ -164,7 +165,7 @@ BAYESOPT_API bayesopt_status bayesopt_open_store(bayesopt *bo, const char *path)
  */
 BAYESOPT_API bayesopt_status bayesopt_open(const char *path,
                                            bayesopt_input_constraint input_constraint,
-                                           void *input_data, bayesopt **bo);
+                                           void *input_user_data, bayesopt **bo);
 
 /** Leaves the points asked in this session pending after bayesopt_free(): they will be told later,
  * perhaps by another process. Without a store there is nothing to leave and nothing happens. */
@@ -310,19 +311,19 @@ BAYESOPT_API bayesopt_status bayesopt_model(bayesopt *bo, bayesopt_model_info *i
 
 /** The objective for bayesopt_minimise(): fills *f and constraints [n_constraints] and returns 0,
  * or returns another number if it could not be evaluated. */
-typedef int (*bayesopt_objective)(void *data, size_t d, const double *x, double *f,
+typedef int (*bayesopt_objective)(void *user_data, size_t d, const double *x, double *f,
                                   double *constraints);
 
 /** Called after every evaluation with the history so far; a non-zero return cancels. */
-typedef int (*bayesopt_progress)(void *data, const bayesopt *bo);
+typedef int (*bayesopt_progress)(void *user_data, const bayesopt *bo);
 
 /**
  * The loop of ask and tell until the options say stop.
  * @return the positive reason for stopping, BAYESOPT_ERROR_CANCELLED, or another error
  */
 BAYESOPT_API bayesopt_status bayesopt_minimise(bayesopt *bo, bayesopt_objective objective,
-                                               void *data, bayesopt_progress progress,
-                                               void *progress_data);
+                                               void *user_data, bayesopt_progress progress,
+                                               void *progress_user_data);
 
 #ifdef __cplusplus
 }

@@ -35,7 +35,7 @@ BAYESOPT_API const char *bayesopt_design_name(bayesopt_design_kind kind);
  * judged and is treated as infeasible. Called often: some thousand times per proposal; must be
  * re-entrant and give the same values for the same x.
  */
-typedef int (*bayesopt_input_constraint)(void *data, size_t d, const double *x, double *value);
+typedef int (*bayesopt_input_constraint)(void *user_data, size_t d, const double *x, double *value);
 
 /** Options of bayesopt_design(); fill with bayesopt_design_options_init(). */
 typedef struct bayesopt_design_options {
@@ -45,7 +45,7 @@ typedef struct bayesopt_design_options {
         power; /**< energy sum 1/dist^power; default 2 (Audze-Eglais); 50 = phi_p, near maximin */
     size_t n_constraints;                 /**< values of constraint; default 0 */
     bayesopt_input_constraint constraint; /**< on points of [0,1]^d; default NULL */
-    void *constraint_data;                /**< passed to constraint */
+    void *constraint_user_data;           /**< passed to constraint */
     double latin_weight; /**< BAYESOPT_DESIGN_STLBO and constrained designs: weight of the Latin
                               hypercube term over the mean energy of a point; default 1 */
     size_t n_existing;   /**< points already there, which the design keeps away from; default 0 */

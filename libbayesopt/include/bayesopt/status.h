@@ -29,9 +29,9 @@ extern "C" {
     X(BAYESOPT_ERROR_MEMORY, -2, "out of memory")                                                  \
     X(BAYESOPT_ERROR_FILE, -3, "file cannot be read or written")                                   \
     X(BAYESOPT_ERROR_FORMAT, -4, "malformed file")                                                 \
-    X(BAYESOPT_ERROR_INFEASIBLE, -5, "no point satisfies the input constraints")                   \
     X(BAYESOPT_ERROR_NUMERIC, -6, "numerical failure")                                             \
     X(BAYESOPT_ERROR_CANCELLED, -7, "cancelled by the caller")                                     \
+    X(BAYESOPT_ERROR_INFEASIBLE, -8, "no point satisfies the input constraints")                   \
     X(BAYESOPT_STOP_BUDGET, 1, "the budget of evaluations is spent")                               \
     X(BAYESOPT_STOP_NO_IMPROVEMENT, 2, "no improvement for long")                                  \
     X(BAYESOPT_STOP_EXPECTED_IMPROVEMENT, 3, "the expected improvement is small")                  \

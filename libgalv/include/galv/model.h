@@ -60,8 +60,8 @@ typedef struct galv_extra {
     size_t count; /**< quantities */
     /** Fills values (count - given) for the moved points. Returns 0, or non-zero to report a
      * failure. NULL when all are given. */
-    int (*evaluate)(void *context, size_t npoints, const double *xyz, double *values);
-    void *context;         /**< borrowed */
+    int (*evaluate)(void *user_data, size_t npoints, const double *xyz, double *values);
+    void *user_data;       /**< borrowed */
     const double *weights; /**< count weights in the inner product, > 0; borrowed. See
                               galv_extra_balance(). */
     bool concurrent;       /**< whether evaluate may run in several threads at once */
@@ -71,7 +71,7 @@ typedef struct galv_extra {
 } galv_extra;
 
 /** Called between blocks of samples with the fraction done, 0..1; non-zero cancels. */
-typedef int (*galv_progress)(void *context, double fraction);
+typedef int (*galv_progress)(void *user_data, double fraction);
 
 /** Options of galv_build(); fill with galv_options_init() first. */
 typedef struct galv_options {
@@ -83,12 +83,12 @@ typedef struct galv_options {
     galv_method method;    /**< default GALV_METHOD_AUTO */
     const double *weights; /**< npoints positive weights of the points in the inner product,
                               borrowed for the call; default NULL: equal measure (eq. 3) */
-    const galv_extra *extra; /**< appended quantities, as changes from the parent; borrowed for the
-                                call; default NULL */
-    size_t workspace;        /**< bytes for matrices and blocks of samples; default 512 MiB */
-    uint64_t seed;           /**< of the randomised start block; default 1 */
-    galv_progress progress;  /**< default NULL */
-    void *progress_context;  /**< default NULL */
+    const galv_extra *extra;  /**< appended quantities, as changes from the parent; borrowed for the
+                                 call; default NULL */
+    size_t workspace;         /**< bytes for matrices and blocks of samples; default 512 MiB */
+    uint64_t seed;            /**< of the randomised start block; default 1 */
+    galv_progress progress;   /**< default NULL */
+    void *progress_user_data; /**< default NULL */
 } galv_options;
 
 GALV_API void galv_options_init(galv_options *options);
@@ -145,8 +145,8 @@ typedef struct galv_data {
     size_t coordinates; /**< L */
     /** Fills count rows of L numbers with samples first..first+count-1; the same ones each time it
      * is asked. Returns 0, or non-zero to report a failure. Called from one thread. */
-    int (*rows)(void *context, size_t first, size_t count, double *rows);
-    void *context;         /**< borrowed */
+    int (*rows)(void *user_data, size_t first, size_t count, double *rows);
+    void *user_data;       /**< borrowed */
     const double *weights; /**< L weights, or NULL */
     const double *values;  /**< the N rows themselves, borrowed for the call; then `rows` is not
                               called. NULL: ask `rows` */

@@ -35,9 +35,11 @@ typedef struct galv_sine {
 
 /** How the terms x_i psi_i of a set are combined. */
 typedef enum galv_combination {
-    GALV_LINEAR,    /**< all functions evaluated at the undisturbed point, d = sum x_i psi_i */
-    GALV_RECURSIVE, /**< eq. 16: function i is evaluated at the point as moved by functions 0..i-1
-                     */
+    GALV_COMBINATION_LINEAR,    /**< all functions evaluated at the undisturbed point, d = sum x_i
+                                   psi_i */
+    GALV_COMBINATION_RECURSIVE, /**< eq. 16: function i is evaluated at the point as moved by
+                                 * functions 0..i-1
+                                 */
 } galv_combination;
 
 /**
@@ -56,17 +58,17 @@ GALV_API galv_status galv_shape_sine(size_t n, const galv_sine *functions, const
 
 /** The caller's own modification: fills d (3 npoints) for the parameters x (n). Returns 0, or
  * non-zero to report that these parameters give no shape. */
-typedef int (*galv_displacement)(void *context, size_t npoints, const double *xyz, const double *x,
-                                 double *d);
+typedef int (*galv_displacement)(void *user_data, size_t npoints, const double *xyz,
+                                 const double *x, double *d);
 
 /**
  * A user-supplied modification.
- * @param context    handed to displace; borrowed, must outlive the shape
+ * @param user_data    handed to displace; borrowed, must outlive the shape
  * @param concurrent true when displace may run in several threads at once
  */
 GALV_API galv_status galv_shape_callback(size_t n, const double *lower, const double *upper,
-                                         galv_displacement displace, void *context, bool concurrent,
-                                         galv_shape **shape);
+                                         galv_displacement displace, void *user_data,
+                                         bool concurrent, galv_shape **shape);
 
 /** A lattice of control points over a box, for free-form deformation (Sederberg and Parry 1986). */
 typedef struct galv_lattice {

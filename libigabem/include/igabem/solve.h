@@ -19,14 +19,16 @@ extern "C" {
 
 /** X(enumerator, name on the command line, one line) */
 #define IGABEM_FORMULATION_LIST(X)                                                                 \
-    X(IGABEM_AUTOMATIC, "auto", "neumann-kelvin-stern with a transom, else neumann-kelvin")        \
-    X(IGABEM_NEUMANN_KELVIN, "neumann-kelvin", "Kelvin sources, Brard line term, flat filter")     \
-    X(IGABEM_NEUMANN_KELVIN_STERN, "neumann-kelvin-stern",                                         \
+    X(IGABEM_FORMULATION_AUTO, "auto", "neumann-kelvin-stern with a transom, else neumann-kelvin") \
+    X(IGABEM_FORMULATION_NEUMANN_KELVIN, "neumann-kelvin",                                         \
+      "Kelvin sources, Brard line term, flat filter")                                              \
+    X(IGABEM_FORMULATION_NEUMANN_KELVIN_STERN, "neumann-kelvin-stern",                             \
       "the same, rows aft of x_s see the double-body kernel only")                                 \
-    X(IGABEM_DOUBLE_BODY_KOCHIN, "double-body-kochin",                                             \
+    X(IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN, "double-body-kochin",                                 \
       "double-body sources, resistance by their Kochin function")                                  \
-    X(IGABEM_HOGNER, "hogner", "sigma = U n_x on the hull (no solve)")                             \
-    X(IGABEM_MICHELL, "michell", "thin ship: the same sources moved to the centre plane")
+    X(IGABEM_FORMULATION_HOGNER, "hogner", "sigma = U n_x on the hull (no solve)")                 \
+    X(IGABEM_FORMULATION_MICHELL, "michell",                                                       \
+      "thin ship: the same sources moved to the centre plane")
 
 typedef enum igabem_formulation {
 #define IGABEM_FORMULATION_ENUM(enumerator, name, text) enumerator,
@@ -55,7 +57,7 @@ typedef enum igabem_solver {
 } igabem_solver;
 
 /** Receives progress in [0,1]; a non-zero return cancels (IGABEM_ERROR_CANCELLED). */
-typedef int (*igabem_progress)(void *data, double fraction);
+typedef int (*igabem_progress)(void *user_data, double fraction);
 
 /** All settings of a solve. NAN means "by the rule that the field's comment gives". */
 typedef struct igabem_options {
@@ -63,7 +65,7 @@ typedef struct igabem_options {
     double gravity;                 /**< m/s^2; 9.80665 */
     double density;                 /**< kg/m^3; 1000 */
     igabem_kernel kernel;           /**< IGABEM_KERNEL_KELVIN */
-    igabem_formulation formulation; /**< IGABEM_AUTOMATIC */
+    igabem_formulation formulation; /**< IGABEM_FORMULATION_AUTO */
 
     int refine;     /**< each knot span split in this many, >= 1; 1 (l of the paper's eq. 14) */
     int refine_v;   /**< the same around the hull, refine then being along it: the direction of a
@@ -97,13 +99,13 @@ typedef struct igabem_options {
     int sensitivity;          /**< also C_w at 0.85 and 1.15 of the cut-off; 0 */
     int threads;              /**< 0: as OpenMP decides */
     igabem_progress progress; /**< NULL: none */
-    void *progress_data;
+    void *progress_user_data;
 } igabem_options;
 
 /** Fills the defaults. */
 IGABEM_API void igabem_options_init(igabem_options *options);
 
-/** Replaces every NAN and IGABEM_AUTOMATIC by what the rules give on this hull. Over an
+/** Replaces every NAN and IGABEM_FORMULATION_AUTO by what the rules give on this hull. Over an
  * optimisation, freeze once on the parent hull: C_w is then a smooth function of the shape. */
 IGABEM_API igabem_status igabem_options_freeze(const igabem_hull *hull, igabem_options *options);
 

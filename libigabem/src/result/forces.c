@@ -61,7 +61,7 @@ static void attitude(const igabem_solution *solution, const struct pressure_sums
  * resistance it would mislead. */
 static int drag_is_wave_resistance(const igabem_solution *solution)
 {
-    return solution->options.formulation != IGABEM_DOUBLE_BODY_KOCHIN;
+    return solution->options.formulation != IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN;
 }
 
 static igabem_status pressure_forces(const igabem_solution *solution, igabem_forces *forces)

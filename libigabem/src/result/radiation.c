@@ -32,9 +32,9 @@ igabem_status radiation_sources(const igabem_solution *solution, enum radiation_
     igabem_status status = sources_create(solution, &rule, sigma, sources);
     if (status)
         return status;
-    if (solution->options.formulation == IGABEM_MICHELL)
+    if (solution->options.formulation == IGABEM_FORMULATION_MICHELL)
         thin_ship(*sources, solution->speed);
-    else if (solution->options.formulation == IGABEM_HOGNER)
+    else if (solution->options.formulation == IGABEM_FORMULATION_HOGNER)
         slender_ship(*sources, solution->speed);
     return IGABEM_OK;
 }

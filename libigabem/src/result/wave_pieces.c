@@ -81,10 +81,10 @@ static struct source surface_source(const struct wave_pieces *pieces,
     element_jet(piece->element, s, t, &jet);
     double area = jet_area(&jet, piece->element->sign, normal);
     struct source source = {{jet.s[0], jet.s[1], fmin(jet.s[2], 0.0)}, 0.0};
-    if (solution->options.formulation == IGABEM_MICHELL)
+    if (solution->options.formulation == IGABEM_FORMULATION_MICHELL)
         source.at[1] = 0.0;
-    if (solution->options.formulation == IGABEM_MICHELL ||
-        solution->options.formulation == IGABEM_HOGNER)
+    if (solution->options.formulation == IGABEM_FORMULATION_MICHELL ||
+        solution->options.formulation == IGABEM_FORMULATION_HOGNER)
         source.strength = solution->speed * normal[0];
     else
         source.strength = area * gathered_density(piece, &jet, s, t);
@@ -109,7 +109,7 @@ static struct source line_source(const struct wave_pieces *pieces, const struct 
         return source;
     double outward = tangent[1] * normal[0] - tangent[0] * normal[1] < 0 ? -1.0 : 1.0;
     double nu_x = outward * tangent[1] / length, n_x = normal[0] / area;
-    double sigma = solution->options.formulation == IGABEM_HOGNER
+    double sigma = solution->options.formulation == IGABEM_FORMULATION_HOGNER
                        ? solution->speed * n_x
                        : gathered_density(piece, &jet, ls, lt);
     source.strength = -solution_stem_limiter(&solution->options, nu_x) * sigma * n_x * nu_x *
@@ -351,7 +351,7 @@ static void measure(const struct wave_pieces *pieces, struct wave_piece *piece)
 static int has_line_term(const igabem_solution *solution)
 {
     return solution->options.line_term && solution->info.surface_piercing &&
-           solution->options.formulation != IGABEM_MICHELL;
+           solution->options.formulation != IGABEM_FORMULATION_MICHELL;
 }
 
 /* Whether an element touches an edge of its patch. */

@@ -41,7 +41,7 @@ void igabem_options_init(igabem_options *options)
                                 .gravity = 9.80665,
                                 .density = 1000.0,
                                 .kernel = IGABEM_KERNEL_KELVIN,
-                                .formulation = IGABEM_AUTOMATIC,
+                                .formulation = IGABEM_FORMULATION_AUTO,
                                 .refine = 1,
                                 .elements_u = -1,
                                 .elements_v = -1,
@@ -143,9 +143,10 @@ igabem_status igabem_options_freeze(const igabem_hull *hull, igabem_options *opt
     if (options->refine_v == 0)
         options->refine_v = options->refine;
     choose_elements(hull, options);
-    if (options->formulation == IGABEM_AUTOMATIC)
-        options->formulation = hull->transom && hull->surface_piercing ? IGABEM_NEUMANN_KELVIN_STERN
-                                                                       : IGABEM_NEUMANN_KELVIN;
+    if (options->formulation == IGABEM_FORMULATION_AUTO)
+        options->formulation = hull->transom && hull->surface_piercing
+                                   ? IGABEM_FORMULATION_NEUMANN_KELVIN_STERN
+                                   : IGABEM_FORMULATION_NEUMANN_KELVIN;
     if (isnan(options->stern_length))
         options->stern_length = stern_by_rule(options);
     options->line_term = options->line_term && hull->surface_piercing;

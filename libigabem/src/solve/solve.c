@@ -46,14 +46,14 @@ struct shared {
     size_t n;
     igabem_solution **solutions;
     igabem_progress progress;
-    void *progress_data;
+    void *progress_user_data;
     double done; /* fraction */
 };
 
 static igabem_status report(struct shared *shared, double fraction)
 {
     shared->done = fmax(shared->done, fraction);
-    if (shared->progress && shared->progress(shared->progress_data, shared->done))
+    if (shared->progress && shared->progress(shared->progress_user_data, shared->done))
         return igabem_fail(IGABEM_ERROR_CANCELLED, "cancelled by the caller");
     return IGABEM_OK;
 }
@@ -62,7 +62,8 @@ static igabem_status report(struct shared *shared, double fraction)
 static int solves(const igabem_options *options)
 {
     return options->kernel != IGABEM_KERNEL_KELVIN ||
-           (options->formulation != IGABEM_HOGNER && options->formulation != IGABEM_MICHELL);
+           (options->formulation != IGABEM_FORMULATION_HOGNER &&
+            options->formulation != IGABEM_FORMULATION_MICHELL);
 }
 
 static int needs_image(const igabem_options *options)
@@ -73,8 +74,8 @@ static int needs_image(const igabem_options *options)
 static int needs_waves(const igabem_options *options)
 {
     return options->kernel == IGABEM_KERNEL_KELVIN &&
-           (options->formulation == IGABEM_NEUMANN_KELVIN ||
-            options->formulation == IGABEM_NEUMANN_KELVIN_STERN);
+           (options->formulation == IGABEM_FORMULATION_NEUMANN_KELVIN ||
+            options->formulation == IGABEM_FORMULATION_NEUMANN_KELVIN_STERN);
 }
 
 /* Share of the Kelvin kernel in the rows at x: all of it, but ahead of x_s only with the stern
@@ -84,7 +85,7 @@ static double wave_share(const igabem_solution *solution, double x)
     const igabem_options *options = &solution->options;
     if (!needs_waves(options))
         return 0.0;
-    if (options->formulation != IGABEM_NEUMANN_KELVIN_STERN)
+    if (options->formulation != IGABEM_FORMULATION_NEUMANN_KELVIN_STERN)
         return 1.0;
     double length = solution->info.length;
     double from = solution->x_aft + options->stern_length * length;
@@ -501,7 +502,7 @@ igabem_status igabem_solve_many(const igabem_hull *hull, size_t n, const igabem_
     struct shared shared = {.hull = hull, .n = n, .solutions = solutions};
     if (n > 0) {
         shared.progress = options[0].progress;
-        shared.progress_data = options[0].progress_data;
+        shared.progress_user_data = options[0].progress_user_data;
     }
     for (size_t k = 0; k < n && status == IGABEM_OK; k++) {
         if (taken[k])

@@ -14,10 +14,10 @@ extern "C" {
 #endif
 
 typedef enum nurbs_parametrization {
-    NURBS_UNIFORM,
-    NURBS_CHORD,
-    NURBS_CENTRIPETAL,
-    NURBS_FOLEY
+    NURBS_PARAMETRIZATION_UNIFORM,
+    NURBS_PARAMETRIZATION_CHORD,
+    NURBS_PARAMETRIZATION_CENTRIPETAL,
+    NURBS_PARAMETRIZATION_FOLEY
 } nurbs_parametrization;
 
 /** Fills u[n], 0 to 1, for n points. Coincident neighbours share a parameter; if all points
@@ -43,9 +43,9 @@ NURBS_API nurbs_status nurbs_curve_fit(int degree, size_t size, const double *kn
 
 /** How a grid of sections becomes one surface: u along the rows (sections), v along the columns. */
 typedef struct nurbs_skin_options {
-    int degree; /**< both directions, 1 to 5; 3 */
-    nurbs_parametrization
-        parametrize;     /**< averaged over rows, respectively columns; NURBS_CENTRIPETAL */
+    int degree;                        /**< both directions, 1 to 5; 3 */
+    nurbs_parametrization parametrize; /**< averaged over rows, respectively columns;
+                                          NURBS_PARAMETRIZATION_CENTRIPETAL */
     double kink_angle;   /**< radians: a longitudinal edge line turning by more than this at a
                               station gets a knot of multiplicity `degree` there so that the
                               kink stays; 20 degrees; <= 0: none */

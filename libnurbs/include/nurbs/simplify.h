@@ -15,13 +15,13 @@ extern "C" {
 
 /** Flags of nurbs_surface_simplify. */
 enum {
-    NURBS_KEEP_EDGES =
+    NURBS_SIMPLIFY_KEEP_EDGES =
         1, /**< the four boundary curves keep their planes: an edge that lies in y = 0 or
                 z = 0 (any coordinate plane) stays in it exactly, and control points that lie on
                 one side of that plane stay there; corners stay exactly in any case */
-    NURBS_KEEP_KINKS = 2, /**< knots of multiplicity >= degree are not touched */
-    NURBS_THRIFTY = 4 /**< one knot at a time with the largest difference balanced: 10 to 60 times
-                           as long for 0.5 to 0.9 of the control points */
+    NURBS_SIMPLIFY_KEEP_KINKS = 2, /**< knots of multiplicity >= degree are not touched */
+    NURBS_SIMPLIFY_THRIFTY = 4 /**< one knot at a time with the largest difference balanced: 10 to
+                           60 times as long for 0.5 to 0.9 of the control points */
 };
 
 /** Removes as many knots as the tolerance allows.
@@ -37,7 +37,7 @@ NURBS_API nurbs_status nurbs_surface_simplify(const nurbs_surface *surface, doub
  * lines along each direction first, so that a simple shape whose parametrisation wobbles becomes
  * small. The domain of the result is then [0,1] x [0,1], and a kink stays within the tolerance
  * only; where evening out does not pay, the result is that of a thrifty nurbs_surface_simplify.
- * @param flags  0 or NURBS_KEEP_EDGES
+ * @param flags  0 or NURBS_SIMPLIFY_KEEP_EDGES
  * @param bound  fills a proven upper bound, <= tolerance, of the distance of each point of either
  *               surface from the other (Hausdorff distance); NULL allowed
  * Slower than a thrifty nurbs_surface_simplify: the net grows before it shrinks. */

@@ -64,15 +64,15 @@ nurbs_status nurbs_parametrize(nurbs_parametrization kind, size_t n, const doubl
     for (size_t k = 0; k + 1 < n; k++) {
         double step = 1;
         switch (kind) {
-        case NURBS_UNIFORM:
+        case NURBS_PARAMETRIZATION_UNIFORM:
             break;
-        case NURBS_CHORD:
+        case NURBS_PARAMETRIZATION_CHORD:
             step = distance(points + 3 * k, points + 3 * k + 3);
             break;
-        case NURBS_CENTRIPETAL:
+        case NURBS_PARAMETRIZATION_CENTRIPETAL:
             step = sqrt(distance(points + 3 * k, points + 3 * k + 3));
             break;
-        case NURBS_FOLEY:
+        case NURBS_PARAMETRIZATION_FOLEY:
             step = foley_increment(n, points, k);
             break;
         default:

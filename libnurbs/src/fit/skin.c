@@ -17,8 +17,9 @@
 
 void nurbs_skin_options_init(nurbs_skin_options *options)
 {
-    *options = (nurbs_skin_options){
-        .degree = 3, .parametrize = NURBS_CENTRIPETAL, .kink_angle = 0.34906585039886592};
+    *options = (nurbs_skin_options){.degree = 3,
+                                    .parametrize = NURBS_PARAMETRIZATION_CENTRIPETAL,
+                                    .kink_angle = 0.34906585039886592};
 }
 
 typedef struct skin {

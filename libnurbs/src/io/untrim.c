@@ -283,8 +283,9 @@ static nurbs_status lighten(const work *w, nurbs_surface **patch, double *deviat
 {
     nurbs_surface *light;
     double bound;
-    nurbs_status status = nurbs_surface_simplify(*patch, w->loop.tolerance - *deviation,
-                                                 NURBS_KEEP_EDGES | NURBS_THRIFTY, &light, &bound);
+    nurbs_status status =
+        nurbs_surface_simplify(*patch, w->loop.tolerance - *deviation,
+                               NURBS_SIMPLIFY_KEEP_EDGES | NURBS_SIMPLIFY_THRIFTY, &light, &bound);
     if (status != NURBS_OK)
         return status;
     nurbs_surface_free(*patch);

@@ -135,11 +135,11 @@ nurbs_status nurbs_surface_simplify_geometric(const nurbs_surface *surface, doub
     if (!surface || !result)
         return nurbs_fail(NURBS_ERROR_ARGUMENT, "%s is NULL", surface ? "result" : "surface");
     *result = NULL;
-    if (flags & ~(unsigned)NURBS_KEEP_EDGES)
-        return nurbs_fail(NURBS_ERROR_ARGUMENT, "flags are %#x, expected 0 or NURBS_KEEP_EDGES",
-                          flags);
+    if (flags & ~(unsigned)NURBS_SIMPLIFY_KEEP_EDGES)
+        return nurbs_fail(NURBS_ERROR_ARGUMENT,
+                          "flags are %#x, expected 0 or NURBS_SIMPLIFY_KEEP_EDGES", flags);
     /* The even net has most of its knots from the change itself: the quick search takes those. */
-    const unsigned thrifty = flags | NURBS_THRIFTY;
+    const unsigned thrifty = flags | NURBS_SIMPLIFY_THRIFTY;
     nurbs_surface *plain = NULL, *first = NULL, *even = NULL, *fewer = NULL, *second = NULL;
     double bounds[4] = {0.0};
     nurbs_status status = nurbs_surface_simplify(surface, tolerance, thrifty, &plain, &bounds[0]);

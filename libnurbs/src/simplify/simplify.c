@@ -70,8 +70,8 @@ static nurbs_status thin(const struct subject *s, double tolerance, unsigned fla
                          struct thinning *t)
 {
     struct thinning_request request = subject_request(s, 0, tolerance);
-    request.keep_kinks = (flags & NURBS_KEEP_KINKS) != 0;
-    if (flags & NURBS_KEEP_EDGES)
+    request.keep_kinks = (flags & NURBS_SIMPLIFY_KEEP_KINKS) != 0;
+    if (flags & NURBS_SIMPLIFY_KEEP_EDGES)
         set_walls(s, request.wall);
     struct thinning first;
     nurbs_status status = thinning_create(&request, &first);
@@ -186,7 +186,7 @@ static nurbs_status attempt_thinning(const struct subject *s, double tolerance, 
     status = simple_create(s, t.along, r);
     r->bound = HUGE_VAL;
     if (status == NURBS_OK && subject_read(s, &net, r->points, r->weights)) {
-        restore_exact(s, net.size, (flags & NURBS_KEEP_EDGES) != 0, r->points, r->weights);
+        restore_exact(s, net.size, (flags & NURBS_SIMPLIFY_KEEP_EDGES) != 0, r->points, r->weights);
         r->bound = subject_certify(s, &t, r->points, r->weights);
     }
     thinning_free(&t);
@@ -198,10 +198,10 @@ static nurbs_status attempt_quick(const struct subject *s, double tolerance, uns
 {
     struct tensor_thin t;
     struct wall wall[3] = {{0, 0.0}, {0, 0.0}, {0, 0.0}};
-    if (flags & NURBS_KEEP_EDGES)
+    if (flags & NURBS_SIMPLIFY_KEEP_EDGES)
         set_walls(s, wall);
     nurbs_status status =
-        tensor_thin_create(s, tolerance, (flags & NURBS_KEEP_KINKS) != 0, wall, &t);
+        tensor_thin_create(s, tolerance, (flags & NURBS_SIMPLIFY_KEEP_KINKS) != 0, wall, &t);
     if (status != NURBS_OK)
         return status;
     status = tensor_thin_run(&t);
@@ -210,7 +210,7 @@ static nurbs_status attempt_quick(const struct subject *s, double tolerance, uns
         status = simple_create(s, t.along, r);
     r->bound = HUGE_VAL;
     if (status == NURBS_OK && subject_read(s, &net, r->points, r->weights)) {
-        restore_exact(s, net.size, (flags & NURBS_KEEP_EDGES) != 0, r->points, r->weights);
+        restore_exact(s, net.size, (flags & NURBS_SIMPLIFY_KEEP_EDGES) != 0, r->points, r->weights);
         r->bound = tensor_thin_certify(&t, r->points, r->weights);
     }
     tensor_thin_free(&t);
@@ -222,7 +222,7 @@ static nurbs_status attempt_quick(const struct subject *s, double tolerance, uns
 static nurbs_status simplify(const struct subject *s, double tolerance, unsigned flags,
                              struct simple *r)
 {
-    const int quick = s->directions == 2 && !(flags & NURBS_THRIFTY);
+    const int quick = s->directions == 2 && !(flags & NURBS_SIMPLIFY_THRIFTY);
     memset(r, 0, sizeof *r);
     double target = tolerance - s->rounding;
     for (int attempt = 0; attempt < 8 && target > 0.0; attempt++) {
@@ -276,12 +276,13 @@ nurbs_status nurbs_surface_simplify(const nurbs_surface *surface, double toleran
     if (status != NURBS_OK)
         return status;
     *result = NULL;
-    if (flags & ~(unsigned)(NURBS_KEEP_EDGES | NURBS_KEEP_KINKS | NURBS_THRIFTY))
+    if (flags &
+        ~(unsigned)(NURBS_SIMPLIFY_KEEP_EDGES | NURBS_SIMPLIFY_KEEP_KINKS | NURBS_SIMPLIFY_THRIFTY))
         return nurbs_fail(NURBS_ERROR_ARGUMENT, "flags are %#x, expected NURBS_KEEP_*", flags);
     const struct axis *const axes[2] = {&surface->axis[0], &surface->axis[1]};
     struct subject s;
     struct simple r;
-    status = subject_create(2, flags & NURBS_THRIFTY ? PARTS : 1, axes, surface->points,
+    status = subject_create(2, flags & NURBS_SIMPLIFY_THRIFTY ? PARTS : 1, axes, surface->points,
                             surface->weights, &s);
     if (status != NURBS_OK)
         return status;

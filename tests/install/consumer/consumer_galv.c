@@ -20,7 +20,8 @@ int main(void)
     const double lower[2] = {-0.1, -0.1}, upper[2] = {0.1, 0.1};
     galv_shape *shape = NULL;
     galv_model *model = NULL;
-    if (galv_shape_sine(2, functions, &box, lower, upper, GALV_LINEAR, &shape) != GALV_OK ||
+    if (galv_shape_sine(2, functions, &box, lower, upper, GALV_COMBINATION_LINEAR, &shape) !=
+            GALV_OK ||
         galv_build(shape, POINTS, xyz, galv_uniform(500, 1), NULL, &model) != GALV_OK) {
         fprintf(stderr, "%s\n", galv_last_error());
         return 1;
