@@ -24,25 +24,39 @@ const char *cli_name(void)
     return command_name;
 }
 
+static void print_message(const char *format, va_list args)
+{
+    fprintf(stderr, "%s: ", command_name);
+    vfprintf(stderr, format, args);
+}
+
 int cli_fail(const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    fprintf(stderr, "%s: ", command_name);
-    vfprintf(stderr, format, args);
-    fputc('\n', stderr);
+    print_message(format, args);
     va_end(args);
+    fputc('\n', stderr);
     return CLI_FAILED;
+}
+
+bool cli_refuse(const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    print_message(format, args);
+    va_end(args);
+    fputc('\n', stderr);
+    return false;
 }
 
 int cli_usage(const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    fprintf(stderr, "%s: ", command_name);
-    vfprintf(stderr, format, args);
-    fprintf(stderr, " (try '%s --help')\n", command_name);
+    print_message(format, args);
     va_end(args);
+    fprintf(stderr, " (try '%s --help')\n", command_name);
     return CLI_USAGE;
 }
 

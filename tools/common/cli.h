@@ -18,6 +18,11 @@ const char *cli_name(void);
 __attribute__((format(printf, 1, 2))) int cli_fail(const char *format, ...);
 __attribute__((format(printf, 1, 2))) int cli_usage(const char *format, ...);
 
+/* The same message from a function that can fail: prints it and returns false, so that it ends with
+ * return cli_refuse("%s: ...", path). Only the top function of a command makes an exit code of it.
+ */
+__attribute__((format(printf, 1, 2))) bool cli_refuse(const char *format, ...);
+
 /* Prints help or version on stdout and returns CLI_OK, or CLI_FAILED if stdout cannot be written.
  */
 int cli_print(const char *text);
