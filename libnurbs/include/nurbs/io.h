@@ -55,6 +55,16 @@ NURBS_API nurbs_status nurbs_patches_write_points(const nurbs_patches *patches, 
 
 /** By extension: .json .igs .iges for reading; also .stl .vtu .csv (control points) for writing. */
 NURBS_API nurbs_status nurbs_patches_read(const char *path, nurbs_patches **patches);
+
+/** The same, and tells what the reader changed, kept whole or left out.
+ * @param tolerance  metres, of faces that are resampled inside their loops, as in
+ *                   nurbs_patches_read_iges_untrimmed(); 0: B-spline surfaces that a loop cuts are
+ *                   kept whole
+ * @param report     fills sentences separated by "; ", cut at report_size; "" if there is nothing
+ *                   to tell; NULL: not wanted */
+NURBS_API nurbs_status nurbs_patches_read_reported(const char *path, double tolerance,
+                                                   nurbs_patches **patches, char *report,
+                                                   size_t report_size);
 NURBS_API nurbs_status nurbs_patches_write(const nurbs_patches *patches, const char *path);
 
 NURBS_API nurbs_status nurbs_surface_write_iges(const nurbs_surface *surface, const char *path);

@@ -20,14 +20,22 @@ static int has_extension(const char *path, const char *extension)
     return 1;
 }
 
-nurbs_status nurbs_patches_read(const char *path, nurbs_patches **patches)
+nurbs_status nurbs_patches_read_reported(const char *path, double tolerance,
+                                         nurbs_patches **patches, char *report, size_t report_size)
 {
     *patches = NULL;
+    if (report && report_size)
+        report[0] = '\0';
     if (has_extension(path, ".json"))
         return nurbs_patches_read_json(path, patches);
     if (has_extension(path, ".igs") || has_extension(path, ".iges"))
-        return nurbs_patches_read_iges(path, patches, NULL, 0);
+        return nurbs_patches_read_iges_untrimmed(path, tolerance, patches, report, report_size);
     return nurbs_fail(NURBS_ERROR_ARGUMENT, "%s: read are .json, .igs and .iges", path);
+}
+
+nurbs_status nurbs_patches_read(const char *path, nurbs_patches **patches)
+{
+    return nurbs_patches_read_reported(path, 0, patches, NULL, 0);
 }
 
 nurbs_status nurbs_patches_write(const nurbs_patches *patches, const char *path)
