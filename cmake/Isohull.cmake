@@ -83,11 +83,13 @@ function(isohull_library name)
           DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 endfunction()
 
-# isohull_tool(NAME LIBRARIES targets...): the command NAME from the *.c files of its folder.
+# isohull_tool(NAME LIBRARIES targets...): the command NAME from the *.c files of its folder and of
+# the folders in it.
 function(isohull_tool name)
   cmake_parse_arguments(ARG "" "" "LIBRARIES" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS *.c)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS *.c)
   add_executable(${name}_tool ${sources})
+  target_include_directories(${name}_tool PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   set_target_properties(${name}_tool PROPERTIES OUTPUT_NAME ${name} INSTALL_RPATH
                                                 "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
   target_compile_definitions(${name}_tool PRIVATE TOOL_VERSION="${PROJECT_VERSION}")

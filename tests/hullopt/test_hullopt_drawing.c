@@ -1,7 +1,7 @@
 /* The pieces of the drawings: scales, colours, the picture format. */
 #include "check.h"
-#include "png.h"
-#include "svg.h"
+#include "report/png.h"
+#include "report/svg.h"
 
 #include <string.h>
 

@@ -1,7 +1,7 @@
-#include "drawings.h"
 #include "outputs.h"
+#include "report/drawings.h"
+#include "report/svg.h"
 #include "report_parts.h"
-#include "svg.h"
 
 #include <math.h>
 #include <stdlib.h>

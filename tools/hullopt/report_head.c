@@ -1,5 +1,5 @@
 #include "report_parts.h"
-#include "svg.h"
+#include "report/svg.h"
 
 #include <math.h>
 

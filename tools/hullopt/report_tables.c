@@ -1,7 +1,7 @@
 #include "entrance.h"
 #include "particulars.h"
 #include "report_parts.h"
-#include "svg.h"
+#include "report/svg.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-#include "drawings.h"
-#include "svg.h"
+#include "report/drawings.h"
+#include "report/svg.h"
 
 #include <math.h>
 #include <stdlib.h>

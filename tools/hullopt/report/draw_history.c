@@ -1,6 +1,6 @@
-#include "drawings.h"
 #include "outcome.h"
-#include "svg.h"
+#include "report/drawings.h"
+#include "report/svg.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
-#include "drawings.h"
+#include "report/drawings.h"
+#include "report/svg.h"
 #include "stations.h"
-#include "svg.h"
 
 #include <math.h>
 #include <stdlib.h>

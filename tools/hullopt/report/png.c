@@ -1,4 +1,4 @@
-#include "png.h"
+#include "report/png.h"
 
 #include <stdint.h>
 #include <stdlib.h>
