@@ -171,12 +171,12 @@ static bool read_flow(const char *path, const struct config_file *file, igabem_o
     solver->degree = (int)degree;
     const char *name = file->solver.formulation;
     if (name && !igabem_formulation_parse(name, &solver->formulation)) {
-        cli_yaml_fail(path, "solver.formulation",
-                      "is '%s', expected one of"
-#define NAME(enumerator, text, line) " " text
-                      IGABEM_FORMULATION_LIST(NAME),
-#undef NAME
-                      name);
+        char names[200] = "";
+        for (igabem_formulation f = IGABEM_FORMULATION_AUTO; igabem_formulation_info(f); f++) {
+            size_t at = strlen(names);
+            snprintf(names + at, sizeof names - at, " %s", igabem_formulation_name(f));
+        }
+        cli_yaml_fail(path, "solver.formulation", "is '%s', expected one of%s", name, names);
         return false;
     }
     return true;

@@ -60,12 +60,6 @@ bool evaluate_build(struct evaluator *evaluator, const double *u, struct design 
     return true;
 }
 
-static bool has_pressure(igabem_formulation formulation)
-{
-    return formulation == IGABEM_FORMULATION_NEUMANN_KELVIN ||
-           formulation == IGABEM_FORMULATION_NEUMANN_KELVIN_STERN;
-}
-
 bool evaluator_create(const struct config *config, const struct parent *parent,
                       const struct latent *latent, struct evaluator *evaluator)
 {
@@ -96,7 +90,8 @@ bool evaluator_create(const struct config *config, const struct parent *parent,
     }
     if (!ok)
         cli_fail("%s: %s", config->path, igabem_last_error());
-    else if (!isnan(config->pressure) && !has_pressure(evaluator->solver.formulation))
+    else if (!isnan(config->pressure) &&
+             !igabem_formulation_info(evaluator->solver.formulation)->pressure)
         ok = cli_fail("%s: constraints.pressure needs a resistance by pressure, which %s has not",
                       config->path,
                       igabem_formulation_name(evaluator->solver.formulation)) == CLI_OK;

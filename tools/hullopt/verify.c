@@ -26,7 +26,7 @@ static void add(struct verification *rows, igabem_options *options, size_t *n, c
     snprintf(row->label, sizeof row->label, "%s", label);
     snprintf(row->formulation, sizeof row->formulation, "%s",
              igabem_formulation_name(setting->formulation));
-    if (setting->formulation == IGABEM_FORMULATION_NEUMANN_KELVIN_STERN)
+    if (igabem_formulation_info(setting->formulation)->stern_rows)
         row->stern_length = setting->stern_length;
     options[(*n)++] = *setting;
 }
@@ -34,20 +34,18 @@ static void add(struct verification *rows, igabem_options *options, size_t *n, c
 static void plan_models(const igabem_options *frozen, struct verification *rows,
                         igabem_options *options, size_t *n)
 {
-    static const igabem_formulation all[] = {IGABEM_FORMULATION_NEUMANN_KELVIN_STERN,
-                                             IGABEM_FORMULATION_NEUMANN_KELVIN,
-                                             IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN,
-                                             IGABEM_FORMULATION_HOGNER, IGABEM_FORMULATION_MICHELL};
+    const igabem_formulation_row *formulation;
     char label[80];
-    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
-        if (all[i] == frozen->formulation)
+    for (igabem_formulation f = IGABEM_FORMULATION_AUTO + 1;
+         (formulation = igabem_formulation_info(f)); f++) {
+        if (f == frozen->formulation)
             continue;
         igabem_options other = *frozen;
-        other.formulation = all[i];
-        add(rows, options, n, "formulation", igabem_formulation_name(all[i]), &other);
+        other.formulation = f;
+        add(rows, options, n, "formulation", formulation->name, &other);
     }
     for (size_t i = 0; i < sizeof OTHER_STERNS / sizeof *OTHER_STERNS; i++) {
-        if (frozen->formulation != IGABEM_FORMULATION_NEUMANN_KELVIN_STERN)
+        if (!igabem_formulation_info(frozen->formulation)->stern_rows)
             break;
         igabem_options other = *frozen;
         other.stern_length = OTHER_STERNS[i];

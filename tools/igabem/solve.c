@@ -54,21 +54,24 @@ void solve_observed_order(const struct solve_ladder *ladder, size_t upto, double
     *limit = c[2] + (c[2] - c[1]) / (pow(h[1] / h[2], p) - 1.0);
 }
 
-/* Formulations of a run. Fills list[6], returns their number. */
+enum { MOST_FORMULATIONS = 16 };
+
+/* Formulations of a run; of all of them the one for hulls like this is the first. Fills
+ * list[MOST_FORMULATIONS], returns their number. */
 static size_t formulations(const struct solve_request *request, const igabem_hull_info *info,
-                           igabem_formulation list[6])
+                           igabem_formulation *list)
 {
+    const igabem_formulation_row *row;
     size_t n = 0;
     if (!request->all) {
         list[n++] = request->options.formulation;
         return n;
     }
-    if (info->transom)
-        list[n++] = IGABEM_FORMULATION_NEUMANN_KELVIN_STERN;
-    list[n++] = IGABEM_FORMULATION_NEUMANN_KELVIN;
-    list[n++] = IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN;
-    list[n++] = IGABEM_FORMULATION_HOGNER;
-    list[n++] = IGABEM_FORMULATION_MICHELL;
+    for (int stern = info->transom != IGABEM_TRANSOM_NONE; stern >= 0; stern--)
+        for (igabem_formulation f = IGABEM_FORMULATION_AUTO + 1;
+             (row = igabem_formulation_info(f)) && n < MOST_FORMULATIONS; f++)
+            if (row->stern_rows == (stern == 1))
+                list[n++] = f;
     return n;
 }
 
@@ -94,7 +97,7 @@ static int refine_on_level(int first, size_t level)
 static void fill_options(const struct solve_run *run, size_t level, igabem_options *options)
 {
     const struct solve_request *request = run->request;
-    igabem_formulation list[6];
+    igabem_formulation list[MOST_FORMULATIONS];
     size_t n = formulations(request, &run->info, list);
     for (size_t c = 0; c < run->cases; c++) {
         options[c] = request->options;
@@ -132,9 +135,7 @@ static igabem_status survey(const struct solve_run *run, const igabem_solution *
     igabem_status status = igabem_wave_shares(solution, 2, limit, result->share);
     if (status)
         return status;
-    igabem_formulation formulation = result->options.formulation;
-    if (formulation == IGABEM_FORMULATION_HOGNER || formulation == IGABEM_FORMULATION_MICHELL ||
-        !run->input->half)
+    if (!igabem_formulation_info(result->options.formulation)->solves || !run->input->half)
         return IGABEM_OK;
     return igabem_wave_cut(solution, NAN, &result->cw_cut);
 }
@@ -181,7 +182,7 @@ static int solve_level(struct solve_run *run, size_t level, igabem_options *opti
     if (status)
         code = cli_fail("%s: %s", run->request->hull.path, igabem_last_error());
     else if (level + 1 == run->levels) {
-        igabem_formulation list[6];
+        igabem_formulation list[MOST_FORMULATIONS];
         size_t n = formulations(run->request, &run->info, list);
         code = write_files(run, solutions[run->cases - n]);
     }
@@ -210,15 +211,13 @@ static int solve_all(struct solve_run *run)
     return code;
 }
 
-/* Hogner, Michell and the double body know no cut-off. */
+/* Of use only to those that know a cut-off. */
 static void warn(const struct solve_run *run)
 {
     const igabem_options *options = &run->request->options;
-    igabem_formulation f = options->formulation;
     const char *text = hull_warning(&run->info);
     if (*text && options->kernel == IGABEM_KERNEL_KELVIN &&
-        (run->request->all || f == IGABEM_FORMULATION_AUTO ||
-         f == IGABEM_FORMULATION_NEUMANN_KELVIN || f == IGABEM_FORMULATION_NEUMANN_KELVIN_STERN))
+        (run->request->all || igabem_formulation_info(options->formulation)->kelvin_rows))
         fprintf(stderr, "igabem: warning: %s: %s\n", run->request->hull.path, text);
 }
 
@@ -266,7 +265,7 @@ int command_solve(int argc, char **argv)
             code = equilibrium_find(&request, &input);
     }
     if (code == CLI_OK) {
-        igabem_formulation list[6];
+        igabem_formulation list[MOST_FORMULATIONS];
         igabem_hull_get_info(input.hull, &run.info);
         run.cases = request.n_fr * formulations(&request, &run.info, list);
         warn(&run);

@@ -83,8 +83,7 @@ static int sample_patch(const igabem_solution *solution, const nurbs_surface *su
         return cli_fail("%s", nurbs_last_error());
     if (igabem_source_density(solution, patch, n, out->uv, out->sigma))
         return cli_fail("%s", igabem_last_error());
-    igabem_formulation formulation = igabem_solution_options(solution)->formulation;
-    if (formulation == IGABEM_FORMULATION_HOGNER || formulation == IGABEM_FORMULATION_MICHELL)
+    if (!igabem_formulation_info(igabem_solution_options(solution)->formulation)->solves)
         return CLI_OK; /* no velocity on the hull: zeros */
     if (igabem_surface_velocity(solution, patch, n, out->uv, out->velocity, out->cp))
         return cli_fail("%s", igabem_last_error());

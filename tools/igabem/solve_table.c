@@ -16,29 +16,23 @@ static void print_hull(const struct solve_run *run)
         printf("            simplified within %.3g m\n", run->input->simplify_bound);
 }
 
-static int solves_waves(igabem_formulation formulation)
-{
-    return formulation == IGABEM_FORMULATION_NEUMANN_KELVIN ||
-           formulation == IGABEM_FORMULATION_NEUMANN_KELVIN_STERN;
-}
-
 /* The formulation with every length and angle that went into the number. */
 static void print_settings(const struct solve_run *run, const struct solve_result *result)
 {
     const igabem_options *o = &result->options;
     const igabem_forces *f = &result->forces;
-    int line =
-        o->line_term && run->info.surface_piercing && o->formulation != IGABEM_FORMULATION_MICHELL;
+    const igabem_formulation_row *formulation = igabem_formulation_info(o->formulation);
+    bool line = o->line_term && run->info.surface_piercing && formulation->line_term;
     if (o->kernel != IGABEM_KERNEL_KELVIN) {
         printf("  %s: no waves\n", o->kernel == IGABEM_KERNEL_RANKINE
                                        ? "kernel rankine, unbounded water"
                                        : "kernel double-body, rigid still water");
         return;
     }
-    printf("  %s: line term %s", igabem_formulation_name(o->formulation), line ? "on" : "off");
+    printf("  %s: line term %s", formulation->name, line ? "on" : "off");
     if (line)
         printf(", stem limit %.4g", o->stem_limit);
-    if (run->info.surface_piercing && solves_waves(o->formulation)) {
+    if (run->info.surface_piercing && formulation->kelvin_rows) {
         if (isfinite(o->cutoff_angle) && f->k0 > 0)
             printf(", filter t_c %.4g = %.3g/nu_s (shortest wave %.3g m)", o->cutoff_angle,
                    o->cutoff_angle * run->info.nu_s,
@@ -48,7 +42,7 @@ static void print_settings(const struct solve_run *run, const struct solve_resul
     }
     if (run->info.surface_piercing)
         printf(", nu_s %.4g", run->info.nu_s);
-    if (o->formulation == IGABEM_FORMULATION_NEUMANN_KELVIN_STERN)
+    if (formulation->stern_rows)
         printf(", x_s %.4g m", run->info.hydrostatics.x_aft + o->stern_length * run->info.length);
     if (f->iterations > 0)
         printf(", GMRES %zu iterations", f->iterations);

@@ -5,6 +5,7 @@
 #ifndef IGABEM_IGABEM_H
 #define IGABEM_IGABEM_H
 
+#include <igabem/formulation.h>
 #include <igabem/hull.h>
 #include <igabem/kelvin.h>
 #include <igabem/solve.h>

@@ -11,34 +11,12 @@
 #ifndef IGABEM_SOLVE_H
 #define IGABEM_SOLVE_H
 
+#include <igabem/formulation.h>
 #include <igabem/hull.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-/** X(enumerator, name on the command line, one line) */
-#define IGABEM_FORMULATION_LIST(X)                                                                 \
-    X(IGABEM_FORMULATION_AUTO, "auto", "neumann-kelvin-stern with a transom, else neumann-kelvin") \
-    X(IGABEM_FORMULATION_NEUMANN_KELVIN, "neumann-kelvin",                                         \
-      "Kelvin sources, Brard line term, flat filter")                                              \
-    X(IGABEM_FORMULATION_NEUMANN_KELVIN_STERN, "neumann-kelvin-stern",                             \
-      "the same, rows aft of x_s see the double-body kernel only")                                 \
-    X(IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN, "double-body-kochin",                                 \
-      "double-body sources, resistance by their Kochin function")                                  \
-    X(IGABEM_FORMULATION_HOGNER, "hogner", "sigma = U n_x on the hull (no solve)")                 \
-    X(IGABEM_FORMULATION_MICHELL, "michell",                                                       \
-      "thin ship: the same sources moved to the centre plane")
-
-typedef enum igabem_formulation {
-#define IGABEM_FORMULATION_ENUM(enumerator, name, text) enumerator,
-    IGABEM_FORMULATION_LIST(IGABEM_FORMULATION_ENUM)
-#undef IGABEM_FORMULATION_ENUM
-} igabem_formulation;
-
-/** Name of a formulation, NULL if unknown; and back (returns 0 if there is no such name). */
-IGABEM_API const char *igabem_formulation_name(igabem_formulation formulation);
-IGABEM_API int igabem_formulation_parse(const char *name, igabem_formulation *formulation);
 
 /** Which Green function: the simple ones test the machinery. */
 typedef enum igabem_kernel {

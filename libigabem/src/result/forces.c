@@ -57,13 +57,6 @@ static void attitude(const igabem_solution *solution, const struct pressure_sums
     forces->trim = -sums->moment / (solution->options.gravity * h->waterplane_inertia_y);
 }
 
-/* The pressure drag of a double-body flow is zero but for its discretisation error; as a wave
- * resistance it would mislead. */
-static int drag_is_wave_resistance(const igabem_solution *solution)
-{
-    return solution->options.formulation != IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN;
-}
-
 static igabem_status pressure_forces(const igabem_solution *solution, igabem_forces *forces)
 {
     if (!solution->velocity)
@@ -77,7 +70,7 @@ static igabem_status pressure_forces(const igabem_solution *solution, igabem_for
     integrate_pressure(solution, sources, &sums);
     sources_free(sources);
     double scale = 2.0 / (solution->speed * solution->speed * forces->wetted_area);
-    if (drag_is_wave_resistance(solution)) {
+    if (solution->formulation->pressure || !solution->formulation->solves) {
         forces->cw_pressure_linear = scale * sums.drag_linear;
         forces->cw_pressure = scale * (sums.drag_linear + sums.drag_square + sums.run_up);
         forces->cw_run_up = scale * sums.run_up;

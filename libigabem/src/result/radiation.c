@@ -4,21 +4,17 @@
 
 #include <math.h>
 
-/* Michell (1898): each side's sources U n_x dS, moved to y = 0 together with their mirror image. */
-static void thin_ship(struct sources *sources, double speed)
+/* Each side's sources U n_x dS where nothing is solved, and those of a thin ship moved to y = 0
+ * together with their mirror image, where it has no waterline. */
+static void place_sources(const igabem_formulation_row *formulation, double speed,
+                          struct sources *sources)
 {
-    for (size_t j = 0; j < sources->n; j++) {
+    for (size_t j = 0; j < sources->n && !formulation->solves; j++)
         sources->strength[j] = speed * sources->normal[0][j] * sources->area[j];
+    for (size_t j = 0; j < sources->n && formulation->centre_plane; j++)
         sources->y[j] = 0.0;
-    }
-    sources->n_line = 0;
-}
-
-/* Hogner (1932): the same on the hull itself. */
-static void slender_ship(struct sources *sources, double speed)
-{
-    for (size_t j = 0; j < sources->n; j++)
-        sources->strength[j] = speed * sources->normal[0][j] * sources->area[j];
+    if (!formulation->line_term)
+        sources->n_line = 0;
 }
 
 igabem_status radiation_sources(const igabem_solution *solution, enum radiation_cutoff cutoff,
@@ -32,10 +28,7 @@ igabem_status radiation_sources(const igabem_solution *solution, enum radiation_
     igabem_status status = sources_create(solution, &rule, sigma, sources);
     if (status)
         return status;
-    if (solution->options.formulation == IGABEM_FORMULATION_MICHELL)
-        thin_ship(*sources, solution->speed);
-    else if (solution->options.formulation == IGABEM_FORMULATION_HOGNER)
-        slender_ship(*sources, solution->speed);
+    place_sources(solution->formulation, solution->speed, *sources);
     return IGABEM_OK;
 }
 

@@ -8,9 +8,9 @@
 /* Which of the solution's densities. */
 enum radiation_cutoff { RADIATION_AS_SOLVED, RADIATION_LOWER, RADIATION_UPPER };
 
-/* Sources that carry the far-field waves up to angle t_max. Hogner's are U n_x on the hull and
- * Michell's the same in the centre plane, both taken from the exact normals; the others carry the
- * solved density. Elements are divided at the planes x = cut[i]. */
+/* Sources that carry the far-field waves up to angle t_max. Without a solve they are U n_x, taken
+ * from the exact normals, else they carry the solved density. Elements are divided at the planes
+ * x = cut[i]. */
 igabem_status radiation_sources(const igabem_solution *solution, enum radiation_cutoff cutoff,
                                 double t_max, size_t cuts, const double *cut,
                                 struct sources **sources);

@@ -70,8 +70,8 @@ static double gathered_density(const struct wave_piece *piece, const struct jet 
     return sum / jet->weight;
 }
 
-/* Surface point at local (s,t): Michell's sources lie in the centre plane, his and Hogner's carry
- * U n_x, all others the density. */
+/* Surface point at local (s,t): U n_x where nothing is solved, else the density; a thin ship's in
+ * the centre plane. */
 static struct source surface_source(const struct wave_pieces *pieces,
                                     const struct wave_piece *piece, double s, double t)
 {
@@ -81,10 +81,9 @@ static struct source surface_source(const struct wave_pieces *pieces,
     element_jet(piece->element, s, t, &jet);
     double area = jet_area(&jet, piece->element->sign, normal);
     struct source source = {{jet.s[0], jet.s[1], fmin(jet.s[2], 0.0)}, 0.0};
-    if (solution->options.formulation == IGABEM_FORMULATION_MICHELL)
+    if (solution->formulation->centre_plane)
         source.at[1] = 0.0;
-    if (solution->options.formulation == IGABEM_FORMULATION_MICHELL ||
-        solution->options.formulation == IGABEM_FORMULATION_HOGNER)
+    if (!solution->formulation->solves)
         source.strength = solution->speed * normal[0];
     else
         source.strength = area * gathered_density(piece, &jet, s, t);
@@ -109,9 +108,8 @@ static struct source line_source(const struct wave_pieces *pieces, const struct 
         return source;
     double outward = tangent[1] * normal[0] - tangent[0] * normal[1] < 0 ? -1.0 : 1.0;
     double nu_x = outward * tangent[1] / length, n_x = normal[0] / area;
-    double sigma = solution->options.formulation == IGABEM_FORMULATION_HOGNER
-                       ? solution->speed * n_x
-                       : gathered_density(piece, &jet, ls, lt);
+    double sigma = solution->formulation->solves ? gathered_density(piece, &jet, ls, lt)
+                                                 : solution->speed * n_x;
     source.strength = -solution_stem_limiter(&solution->options, nu_x) * sigma * n_x * nu_x *
                       length / solution->k0;
     return source;
@@ -351,7 +349,7 @@ static void measure(const struct wave_pieces *pieces, struct wave_piece *piece)
 static int has_line_term(const igabem_solution *solution)
 {
     return solution->options.line_term && solution->info.surface_piercing &&
-           solution->options.formulation != IGABEM_FORMULATION_MICHELL;
+           solution->formulation->line_term;
 }
 
 /* Whether an element touches an edge of its patch. */

@@ -1,39 +1,12 @@
 #include "core/error.h"
-#include "hull/hull.h"
-
-#include <igabem/solve.h>
+#include "solve/formulation.h"
 
 #include <math.h>
-#include <string.h>
 
 static const double irregular_spans = 3.0;
 static const double transom_stem_factor = 1.2, stem_factor = 2.0;
 /* x_s - x_aft: this share of the length, at lower speeds 0.45 transverse wave lengths 2 pi/k0. */
 static const double stern_share = 0.35, stern_froude = 0.35;
-
-const char *igabem_formulation_name(igabem_formulation formulation)
-{
-    switch (formulation) {
-#define IGABEM_FORMULATION_NAME(enumerator, name, text)                                            \
-    case enumerator:                                                                               \
-        return name;
-        IGABEM_FORMULATION_LIST(IGABEM_FORMULATION_NAME)
-#undef IGABEM_FORMULATION_NAME
-    }
-    return NULL;
-}
-
-int igabem_formulation_parse(const char *name, igabem_formulation *formulation)
-{
-#define IGABEM_FORMULATION_TEST(enumerator, text, line)                                            \
-    if (strcmp(name, text) == 0) {                                                                 \
-        *formulation = enumerator;                                                                 \
-        return 1;                                                                                  \
-    }
-    IGABEM_FORMULATION_LIST(IGABEM_FORMULATION_TEST)
-#undef IGABEM_FORMULATION_TEST
-    return 0;
-}
 
 void igabem_options_init(igabem_options *options)
 {
@@ -79,7 +52,7 @@ static igabem_status check(const igabem_options *options)
         status = igabem_fail(IGABEM_ERROR_ARGUMENT, "unknown kernel %d", (int)options->kernel);
     else if (options->solver < IGABEM_SOLVER_AUTO || options->solver > IGABEM_SOLVER_GMRES)
         status = igabem_fail(IGABEM_ERROR_ARGUMENT, "unknown solver %d", (int)options->solver);
-    else if (!igabem_formulation_name(options->formulation))
+    else if (!igabem_formulation_info(options->formulation))
         status =
             igabem_fail(IGABEM_ERROR_ARGUMENT, "unknown formulation %d", (int)options->formulation);
     if (status == IGABEM_OK && options->kernel == IGABEM_KERNEL_KELVIN)
@@ -144,9 +117,7 @@ igabem_status igabem_options_freeze(const igabem_hull *hull, igabem_options *opt
         options->refine_v = options->refine;
     choose_elements(hull, options);
     if (options->formulation == IGABEM_FORMULATION_AUTO)
-        options->formulation = hull->transom && hull->surface_piercing
-                                   ? IGABEM_FORMULATION_NEUMANN_KELVIN_STERN
-                                   : IGABEM_FORMULATION_NEUMANN_KELVIN;
+        options->formulation = formulation_choose(hull);
     if (isnan(options->stern_length))
         options->stern_length = stern_by_rule(options);
     options->line_term = options->line_term && hull->surface_piercing;

@@ -5,7 +5,8 @@
 #include "space/density.h"
 
 struct igabem_solution {
-    igabem_options options; /* as used: no NAN, no automatic */
+    igabem_options options;                    /* as used: no NAN, no automatic */
+    const igabem_formulation_row *formulation; /* of options */
     igabem_hull_info info;
     double x_aft, x_fore;
     double speed, k0; /* m/s, 1/m; without a Froude number speed 1 and k0 = 0 */

@@ -1,5 +1,6 @@
 #include "core/error.h"
 #include "solve/assemble.h"
+#include "solve/formulation.h"
 #include "solve/linear.h"
 #include "solve/solution.h"
 
@@ -58,34 +59,14 @@ static igabem_status report(struct shared *shared, double fraction)
     return IGABEM_OK;
 }
 
-/* What a setting needs of the Green function. */
-static int solves(const igabem_options *options)
-{
-    return options->kernel != IGABEM_KERNEL_KELVIN ||
-           (options->formulation != IGABEM_FORMULATION_HOGNER &&
-            options->formulation != IGABEM_FORMULATION_MICHELL);
-}
-
-static int needs_image(const igabem_options *options)
-{
-    return solves(options) && options->kernel != IGABEM_KERNEL_RANKINE;
-}
-
-static int needs_waves(const igabem_options *options)
-{
-    return options->kernel == IGABEM_KERNEL_KELVIN &&
-           (options->formulation == IGABEM_FORMULATION_NEUMANN_KELVIN ||
-            options->formulation == IGABEM_FORMULATION_NEUMANN_KELVIN_STERN);
-}
-
 /* Share of the Kelvin kernel in the rows at x: all of it, but ahead of x_s only with the stern
  * variant, with a smooth switch; double body elsewhere. */
 static double wave_share(const igabem_solution *solution, double x)
 {
     const igabem_options *options = &solution->options;
-    if (!needs_waves(options))
+    if (!formulation_has_waves(options))
         return 0.0;
-    if (options->formulation != IGABEM_FORMULATION_NEUMANN_KELVIN_STERN)
+    if (!solution->formulation->stern_rows)
         return 1.0;
     double length = solution->info.length;
     double from = solution->x_aft + options->stern_length * length;
@@ -105,6 +86,7 @@ static igabem_status start_solution(const igabem_hull *hull, const igabem_option
     igabem_status status = igabem_options_freeze(hull, &solution->options);
     if (status != IGABEM_OK)
         return status;
+    solution->formulation = igabem_formulation_info(solution->options.formulation);
     igabem_hull_get_info(hull, &solution->info);
     solution->x_aft = hull->hydrostatics.x_aft;
     solution->x_fore = hull->hydrostatics.x_fore;
@@ -189,7 +171,7 @@ static igabem_status weighted_rows(struct shared *shared, double fraction,
                                    struct wave_change **change)
 {
     size_t n = influence->density->n;
-    const double *image = needs_image(&solution->options) ? weights->image : NULL;
+    const double *image = formulation_has_image(&solution->options) ? weights->image : NULL;
     igabem_status status = IGABEM_OK;
     if (parts->rankine) {
         memcpy(rows, parts->rankine, 3 * n * n * sizeof *rows);
@@ -200,7 +182,7 @@ static igabem_status weighted_rows(struct shared *shared, double fraction,
     }
     if (status == IGABEM_OK)
         status = report(shared, fraction);
-    if (status != IGABEM_OK || !needs_waves(&solution->options))
+    if (status != IGABEM_OK || !formulation_has_waves(&solution->options))
         return status;
     if (parts->local)
         add_weighted(influence, weights->wave, parts->local, rows);
@@ -339,11 +321,12 @@ static igabem_status finish_solution(struct shared *shared, double fraction,
     const struct density *density = influence->density;
     const igabem_options *options = &solution->options;
     size_t n = density->n;
-    if (!solves(options)) {
+    if (!formulation_solves(options)) {
         normal_flow(solution, solution->sigma);
         return density_interpolate(solution->density, 1, solution->sigma);
     }
-    int several = needs_waves(options) && options->sensitivity && isfinite(options->cutoff_angle);
+    int several =
+        formulation_has_waves(options) && options->sensitivity && isfinite(options->cutoff_angle);
     size_t filters = several ? 3 : 1;
     size_t arrays = 3; /* n^2 doubles each */
     arrays += 3 * ((size_t) !!parts->rankine + (size_t) !!parts->image + (size_t) !!parts->local);
@@ -386,7 +369,7 @@ static igabem_status shared_local(const struct influence *influence, igabem_solu
         return no_memory(density->n);
     for (size_t m = first; m < count; m++) {
         const igabem_solution *solution = solutions[member[m]];
-        if (!needs_waves(&solution->options) || solution->k0 != k0)
+        if (!formulation_has_waves(&solution->options) || solution->k0 != k0)
             continue;
         for (size_t i = 0; i < density->n; i++)
             if (wave_share(solution, density->point[3 * i]) > 0)
@@ -403,8 +386,8 @@ static int local_shared(igabem_solution **solutions, const size_t *member, size_
 {
     for (size_t m = 0; m < count; m++)
         for (size_t k = m + 1; k < count; k++)
-            if (needs_waves(&solutions[member[m]]->options) &&
-                needs_waves(&solutions[member[k]]->options) &&
+            if (formulation_has_waves(&solutions[member[m]]->options) &&
+                formulation_has_waves(&solutions[member[k]]->options) &&
                 solutions[member[k]]->k0 == solutions[member[m]]->k0)
                 return 1;
     return 0;
@@ -417,8 +400,8 @@ static igabem_status share_parts(const struct influence *influence, igabem_solut
     size_t n = influence->density->n, size = 3 * n * n * sizeof(double), solved = 0;
     int images = 0;
     for (size_t m = 0; m < count; m++) {
-        solved += (size_t)solves(&solutions[member[m]]->options);
-        images |= needs_image(&solutions[member[m]]->options);
+        solved += (size_t)formulation_solves(&solutions[member[m]]->options);
+        images |= formulation_has_image(&solutions[member[m]]->options);
     }
     *parts = (struct parts){NULL, NULL, NULL, 0.0};
     if (solved < 2)
@@ -462,7 +445,8 @@ static igabem_status solve_group(struct shared *shared, const size_t *member, si
         start = omp_get_wtime();
         solution->cost = shared_cost;
         influence->cost = &solution->cost;
-        if (parts.local && needs_waves(&solution->options) && solution->k0 != parts.local_k0) {
+        if (parts.local && formulation_has_waves(&solution->options) &&
+            solution->k0 != parts.local_k0) {
             status = shared_local(influence, solutions, member, count, m, parts.local);
             parts.local_k0 = solution->k0;
         }
