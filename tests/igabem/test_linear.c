@@ -4,6 +4,8 @@
 
 #include <igabem/status.h>
 
+#include <lapacke.h>
+#include <stdbool.h>
 #include <string.h>
 
 enum { N = 40, LARGE = 150 };
@@ -295,7 +297,52 @@ static void test_systems(void)
     free(shift);
 }
 
+/* LAPACKE without memory for its own work arrays: the linker hands the library's calls to these. */
+static bool exhausted;
+double __real_LAPACKE_dlange(int layout, char norm, lapack_int m, lapack_int n, const double *a,
+                             lapack_int stride);
+double __wrap_LAPACKE_dlange(int layout, char norm, lapack_int m, lapack_int n, const double *a,
+                             lapack_int stride);
+double __wrap_LAPACKE_dlange(int layout, char norm, lapack_int m, lapack_int n, const double *a,
+                             lapack_int stride)
+{
+    return exhausted ? LAPACK_WORK_MEMORY_ERROR
+                     : __real_LAPACKE_dlange(layout, norm, m, n, a, stride);
+}
+
+static lapack_int condition_info;
+lapack_int __real_LAPACKE_dgecon(int layout, char norm, lapack_int n, const double *a,
+                                 lapack_int stride, double size, double *reciprocal);
+lapack_int __wrap_LAPACKE_dgecon(int layout, char norm, lapack_int n, const double *a,
+                                 lapack_int stride, double size, double *reciprocal);
+lapack_int __wrap_LAPACKE_dgecon(int layout, char norm, lapack_int n, const double *a,
+                                 lapack_int stride, double size, double *reciprocal)
+{
+    return condition_info ? condition_info
+                          : __real_LAPACKE_dgecon(layout, norm, n, a, stride, size, reciprocal);
+}
+
+static void test_lapack_fails(void)
+{
+    double a[4] = {2, 1, 1, 3}, right[2] = {1, 1}, condition;
+    const struct matrix matrix = {.n = 2, .stride = 2, .rows = a};
+    exhausted = true;
+    CU_ASSERT_EQUAL(linear_lu(&matrix, right, &condition), IGABEM_ERROR_MEMORY);
+    exhausted = false;
+    condition_info = LAPACK_WORK_MEMORY_ERROR;
+    CU_ASSERT_EQUAL(linear_lu(&matrix, right, &condition), IGABEM_ERROR_MEMORY);
+    CU_ASSERT(strstr(igabem_last_error(), "memory") != NULL);
+    condition_info = 0;
+    double again[4] = {2, 1, 1, 3};
+    const struct matrix fresh = {.n = 2, .stride = 2, .rows = again};
+    CU_ASSERT_EQUAL(linear_lu(&fresh, right, &condition), IGABEM_OK);
+    CHECK_CLOSE(right[0], 0.4, 1e-15);
+    CHECK_CLOSE(right[1], 0.2, 1e-15);
+    CHECK_CLOSE(condition, 4.0 * 0.8, 1e-14); /* inverse (3 -1; -1 2) / 5 */
+}
+
 static const struct check_case cases[] = {
+    {"LAPACK without memory", test_lapack_fails},
     {"GMRES converges", test_converges},
     {"GMRES: nothing to do", test_trivial},
     {"GMRES: lucky breakdown", test_lucky_breakdown},

@@ -1,5 +1,6 @@
 #include "core/error.h"
 
+#include <lapacke.h>
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -34,4 +35,12 @@ igabem_status igabem_fail(igabem_status code, const char *format, ...)
     vsnprintf(last_error, sizeof last_error, format, args);
     va_end(args);
     return code;
+}
+
+igabem_status igabem_fail_lapack(const char *what, int info)
+{
+    if (info == LAPACK_WORK_MEMORY_ERROR || info == LAPACK_TRANSPOSE_MEMORY_ERROR)
+        return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for LAPACK: %s", what);
+    return igabem_fail(IGABEM_ERROR_NUMERIC, "%s: LAPACK ends with %d, %s", what, info,
+                       info > 0 ? "the matrix is singular" : "a number is not finite");
 }

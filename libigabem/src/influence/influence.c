@@ -202,8 +202,10 @@ static igabem_status fill_regular(struct influence *influence)
 {
     const struct mesh *mesh = influence->mesh;
     size_t *offset = malloc((mesh->panels + 1) * sizeof *offset);
-    int failed = !offset;
-    for (size_t p = 0, at = 0; p < mesh->panels && !failed; p++) {
+    if (!offset)
+        return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for quadrature nodes");
+    int failed = 0;
+    for (size_t p = 0, at = 0; p < mesh->panels; p++) {
         offset[p] = at;
         at += panel_doubles(mesh, p);
     }

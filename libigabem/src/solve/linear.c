@@ -23,6 +23,35 @@ static igabem_status check_size(size_t n)
     return igabem_fail(IGABEM_ERROR_ARGUMENT, "%zu unknowns are too many for LAPACK", n);
 }
 
+/* LAPACKE_dlange() returns its info, a negative number, where it has no memory. */
+static igabem_status check_norm(double norm)
+{
+    if (norm < 0.0)
+        return igabem_fail_lapack("norm of the influence matrix", (int)norm);
+    if (!isfinite(norm))
+        return igabem_fail(IGABEM_ERROR_NUMERIC, "the influence matrix is not finite");
+    return IGABEM_OK;
+}
+
+static igabem_status factored_solve(lapack_int order, double *a, lapack_int stride, double norm,
+                                    lapack_int *pivots, double *right, double *condition)
+{
+    double reciprocal = 0.0;
+    lapack_int info = LAPACKE_dgetrf(LAPACK_COL_MAJOR, order, order, a, stride, pivots);
+    if (info == 0 && condition) {
+        info = LAPACKE_dgecon(LAPACK_COL_MAJOR, 'I', order, a, stride, norm, &reciprocal);
+        *condition = 1.0 / reciprocal;
+    }
+    if (info == 0)
+        info = LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'T', order, 1, a, stride, pivots, right, order);
+    if (info != 0)
+        return igabem_fail_lapack("solution for the source density", info);
+    for (lapack_int i = 0; i < order; i++)
+        if (!isfinite(right[i]))
+            return igabem_fail(IGABEM_ERROR_NUMERIC, "unknown %d is not finite", (int)i);
+    return IGABEM_OK;
+}
+
 igabem_status linear_lu(const struct matrix *matrix, double *right, double *condition)
 {
     size_t n = matrix->n;
@@ -35,21 +64,9 @@ igabem_status linear_lu(const struct matrix *matrix, double *right, double *cond
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory to solve for %zu unknowns", n);
     /* Row-major storage is the transpose of LAPACK's, whose inf-norm is our 1-norm. */
     double *a = matrix->rows, norm = LAPACKE_dlange(LAPACK_COL_MAJOR, 'I', order, order, a, stride);
-    if (!isfinite(norm))
-        status = igabem_fail(IGABEM_ERROR_NUMERIC, "the influence matrix is not finite");
-    else if (LAPACKE_dgetrf(LAPACK_COL_MAJOR, order, order, a, stride, pivots) != 0)
-        status = igabem_fail(IGABEM_ERROR_NUMERIC, "the influence matrix is singular");
-    if (status == IGABEM_OK) {
-        double reciprocal = 0.0;
-        if (condition) {
-            LAPACKE_dgecon(LAPACK_COL_MAJOR, 'I', order, a, stride, norm, &reciprocal);
-            *condition = 1.0 / reciprocal;
-        }
-        LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'T', order, 1, a, stride, pivots, right, order);
-        for (size_t i = 0; i < n && status == IGABEM_OK; i++)
-            if (!isfinite(right[i]))
-                status = igabem_fail(IGABEM_ERROR_NUMERIC, "unknown %zu is not finite", i);
-    }
+    status = check_norm(norm);
+    if (status == IGABEM_OK)
+        status = factored_solve(order, a, stride, norm, pivots, right, condition);
     free(pivots);
     return status;
 }
@@ -259,7 +276,7 @@ igabem_status iteration_condition(const struct iteration *iteration, double *con
     double *vector = malloc(3 * n * sizeof *vector), *x = vector + n, *right = x + n;
     lapack_int *sign = malloc(n * sizeof *sign);
     igabem_status status =
-        vector && sign ? IGABEM_OK : igabem_fail(IGABEM_ERROR_MEMORY, "no memory to solve");
+        vector && sign ? check_norm(norm) : igabem_fail(IGABEM_ERROR_MEMORY, "no memory to solve");
     for (int k = 0; k < ESTIMATES && status == IGABEM_OK; k++) {
         LAPACKE_dlacn2_work(order, vector, x, sign, &inverse, &kase, save);
         if (kase == 0)

@@ -461,8 +461,11 @@ static igabem_status interpolate_patch(const struct density *density,
         goto done;
     }
     double *mu = work, *mv = mu + nu * nu, *scale = mv + nv * nv, *turned = scale + n;
-    if (factor_direction(patch, 0, mu, pivots) || factor_direction(patch, 1, mv, pivots + nu)) {
-        status = igabem_fail(IGABEM_ERROR_NUMERIC, "singular interpolation at Greville points");
+    lapack_int info = factor_direction(patch, 0, mu, pivots);
+    if (info == 0)
+        info = factor_direction(patch, 1, mv, pivots + nu);
+    if (info != 0) {
+        status = igabem_fail_lapack("interpolation at Greville points", info);
         goto done;
     }
     for (size_t k = 0; k < n; k++)
@@ -475,13 +478,18 @@ static igabem_status interpolate_patch(const struct density *density,
         double *field = values + f * density->n + patch->offset;
         for (size_t k = 0; k < n; k++)
             field[k] *= scale[k];
-        LAPACKE_dgetrs(LAPACK_ROW_MAJOR, 'N', (lapack_int)nu, (lapack_int)nv, mu, (lapack_int)nu,
-                       pivots, field, (lapack_int)nv);
+        info = LAPACKE_dgetrs(LAPACK_ROW_MAJOR, 'N', (lapack_int)nu, (lapack_int)nv, mu,
+                              (lapack_int)nu, pivots, field, (lapack_int)nv);
         for (size_t i = 0; i < nu; i++)
             for (size_t j = 0; j < nv; j++)
                 turned[j * nu + i] = field[i * nv + j];
-        LAPACKE_dgetrs(LAPACK_ROW_MAJOR, 'N', (lapack_int)nv, (lapack_int)nu, mv, (lapack_int)nv,
-                       pivots + nu, turned, (lapack_int)nu);
+        if (info == 0)
+            info = LAPACKE_dgetrs(LAPACK_ROW_MAJOR, 'N', (lapack_int)nv, (lapack_int)nu, mv,
+                                  (lapack_int)nv, pivots + nu, turned, (lapack_int)nu);
+        if (info != 0) {
+            status = igabem_fail_lapack("interpolation on a patch", info);
+            goto done;
+        }
         for (size_t i = 0; i < nu; i++)
             for (size_t j = 0; j < nv; j++)
                 field[i * nv + j] = turned[j * nu + i] / (weights ? weights[i * nv + j] : 1.0);
