@@ -262,8 +262,10 @@ static void test_drawings(void)
     write_inputs();
     json_decref(run_json(reduce));
     expect("plot model.h5 -o plot.svg --modes 2", 0, NULL);
-    expect_svg("plot.svg", "mode 2");
-    expect_svg("plot.svg", " m where u2 = ");
+    expect_svg("plot.svg", "Mode 2: ");
+    expect_svg("plot.svg", ">rms, mm</text>");
+    expect("plot model.h5 -o plot.pdf", 0, NULL);
+    expect("plot model.h5 -o plot.txt", 2, ".svg, .png or .pdf");
     expect("animate model.h5 -o strip.svg --modes 2 --frames 3 --scale 2", 0, NULL);
     expect_svg("strip.svg", "<animate");
     expect("plot model.h5", 2, "-o");

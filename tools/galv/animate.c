@@ -1,134 +1,162 @@
 #include "cli.h"
 #include "commands.h"
-#include "svg.h"
+#include "plot/ship.h"
 #include "use.h"
-#include "view.h"
 
-#include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 static const char help[] =
-    "usage: galv animate MODEL -o FILE.svg [--modes K] [--frames F] [--scale S]\n"
+    "usage: galv animate MODEL -o FILE.svg|FILE.png|FILE.pdf [--modes K] [--frames F] [--scale S]\n"
     "\n"
     "Draws, for each of the first K latent directions (default 3), the body plans of F hulls "
     "(default 5)\n"
-    "from the lower to the upper end of the samples, the parent in grey, and the same as a moving\n"
-    "picture. S multiplies the displacements (default 1).\n";
+    "from the lower to the upper end of the samples, the parent in grey, and in an SVG the same as "
+    "a\n"
+    "moving picture. S multiplies the displacements (default 1).\n";
 
-enum { PANEL = 190, HEADER = 30 };
+enum { PANEL = 190, GAP = 20, HEADER = 34 };
+
+static const struct plot_pen parent_pen = {"#b9c2cb", 0.7, NULL},
+                             moved_pen = {PLOT_BLUE, 0.8, NULL},
+                             motion_pen = {PLOT_OPTIMUM, 0.8, NULL};
 
 struct strip {
     const struct model_file *file;
-    size_t modes, frames;
-    double scale;
+    size_t modes, frames, stride; /* sections drawn: every stride-th */
+    double scale, middle;         /* x (metres) that divides fore from aft sections */
+    struct plot sheet;
+    struct plot_frame frame;
     double *hull, *u; /* moved points; latent point */
 };
 
+/* The frame of a body plan: a tenth is left for hulls wider than the parent. */
+static void fit(struct strip *strip)
+{
+    const double *p = galv_model_parent(strip->file->model);
+    double low[3] = {INFINITY, 0, INFINITY}, high[3] = {-INFINITY, 0, -INFINITY};
+    for (size_t i = 0; i < galv_model_coordinates(strip->file->model); i++) {
+        low[i % 3] = fmin(low[i % 3], p[i]);
+        high[i % 3] = fmax(high[i % 3], i % 3 == 1 ? fabs(p[i]) : p[i]);
+    }
+    double side = fmax(fmax(2 * high[1], high[2] - low[2]), 1e-12) / 0.9;
+    double centre = (high[2] + low[2]) / 2;
+    strip->frame = (struct plot_frame){.width = PANEL, .height = PANEL};
+    strip->frame.x = (struct plot_axis){.low = -side / 2, .high = side / 2};
+    strip->frame.y = (struct plot_axis){.low = centre - side / 2, .high = centre + side / 2};
+    strip->middle = (low[0] + high[0]) / 2;
+    strip->stride = strip->file->sections > 24 ? strip->file->sections / 24 + 1 : 1;
+}
+
 /* The hull of frame f along direction k: the others at their sample mean of 0. */
-static galv_status move_hull(struct strip *strip, size_t k, double value)
+static galv_status move_hull(struct strip *strip, size_t k, size_t f)
 {
     const galv_model *model = strip->file->model;
+    double lower = galv_model_lower(model)[k], upper = galv_model_upper(model)[k];
+    double t = strip->frames > 1 ? (double)f / (double)(strip->frames - 1) : 0.5;
     memset(strip->u, 0, galv_model_modes(model) * sizeof *strip->u);
-    strip->u[k] = value;
+    strip->u[k] = lower + t * (upper - lower);
     galv_status status = galv_reconstruct(model, strip->u, strip->hull);
-    for (size_t i = 0; i < 3 * galv_model_points(model) && !status; i++)
+    for (size_t i = 0; i < galv_model_coordinates(model) && !status; i++)
         strip->hull[i] = galv_model_parent(model)[i] + strip->scale * strip->hull[i];
     return status;
 }
 
-static double frame_value(const struct strip *strip, size_t k, size_t f)
+/* Aft sections to the left, fore sections to the right. */
+static void put_sections(struct strip *strip, const double *xyz)
 {
-    double lower = galv_model_lower(strip->file->model)[k];
-    double upper = galv_model_upper(strip->file->model)[k];
-    double t = strip->frames > 1 ? (double)f / (double)(strip->frames - 1) : 0.5;
-    return lower + t * (upper - lower);
+    size_t girth = strip->file->girth;
+    for (size_t i = 0; i < strip->file->sections; i += strip->stride) {
+        const double *section = xyz + 3 * i * girth;
+        double side = section[3 * (girth / 2)] < strip->middle ? -1 : 1;
+        for (size_t j = 0; j < girth; j++)
+            fprintf(strip->sheet.out, "%c%.2f %.2f", j ? 'L' : 'M',
+                    plot_x(&strip->frame, side * section[3 * j + 1]),
+                    plot_y(&strip->frame, section[3 * j + 2]));
+    }
 }
 
-static struct view panel(const struct strip *strip, size_t row, size_t column)
+static void put_hull(struct strip *strip, const double *xyz, struct plot_pen pen)
 {
-    return (struct view){.x = 10 + PANEL * (double)column,
-                         .y = HEADER + (PANEL + 20) * (double)row,
-                         .width = PANEL - 20,
-                         .height = PANEL - 20,
-                         .sections = strip->file->sections,
-                         .girth = strip->file->girth};
+    plot_path(&strip->sheet, pen, NULL);
+    put_sections(strip, xyz);
+    plot_path_end(&strip->sheet);
 }
 
-static void draw_parent(FILE *out, const struct strip *strip, const struct view *view,
-                        const struct body_plan *plan)
+/* There and back again through the frames; viewers that do not animate show the first hull. */
+static galv_status put_motion(struct strip *strip, size_t k)
 {
-    fputs("<path fill=\"none\" stroke=\"#ccc\" stroke-width=\"0.6\" d=\"", out);
-    view_sections(out, view, plan, galv_model_parent(strip->file->model));
-    fputs("\"/>\n", out);
-}
-
-static galv_status draw_frame(FILE *out, struct strip *strip, size_t k, size_t f)
-{
-    struct view view = panel(strip, k, f);
-    struct body_plan plan = view_body_plan(&view, galv_model_parent(strip->file->model));
-    double value = frame_value(strip, k, f);
-    galv_status status = move_hull(strip, k, value);
-    if (status)
-        return status;
-    draw_parent(out, strip, &view, &plan);
-    fputs("<path fill=\"none\" stroke=\"#1969c8\" stroke-width=\"0.7\" d=\"", out);
-    view_sections(out, &view, &plan, strip->hull);
-    fputs("\"/>\n", out);
-    svg_text(out, view.x + view.width / 2, view.y + view.height + 16, 11, SVG_MIDDLE,
-             "u%zu = %.3g m", k + 1, value);
-    return GALV_OK;
-}
-
-/* There and back again through the frames. */
-static galv_status draw_motion(FILE *out, struct strip *strip, size_t k)
-{
-    struct view view = panel(strip, k, strip->frames);
-    struct body_plan plan = view_body_plan(&view, galv_model_parent(strip->file->model));
-    size_t steps = strip->frames > 1 ? 2 * strip->frames - 1 : 1;
-    draw_parent(out, strip, &view, &plan);
-    /* Viewers that do not animate show the first hull. */
-    galv_status first = move_hull(strip, k, frame_value(strip, k, 0));
-    if (first)
-        return first;
-    fputs("<path fill=\"none\" stroke=\"#d62728\" stroke-width=\"0.7\" d=\"", out);
-    view_sections(out, &view, &plan, strip->hull);
-    fprintf(out,
-            "\"><animate attributeName=\"d\" dur=\"%zus\" repeatCount=\"indefinite\" values=\"",
-            strip->frames);
-    for (size_t s = 0; s < steps; s++) {
-        size_t f = s < strip->frames ? s : 2 * (strip->frames - 1) - s;
-        galv_status status = move_hull(strip, k, frame_value(strip, k, f));
+    FILE *out = strip->sheet.out;
+    size_t last = strip->frames - 1;
+    plot_path(&strip->sheet, motion_pen, NULL);
+    for (size_t s = 0; s <= 2 * last + 1; s++) {
+        galv_status status = move_hull(strip, k,
+                                       s == 0          ? 0
+                                       : s <= last + 1 ? s - 1
+                                                       : 2 * last + 1 - s);
         if (status)
             return status;
-        if (s)
+        if (s == 1)
+            fprintf(out,
+                    "\"><animate attributeName=\"d\" dur=\"%zus\" repeatCount=\"indefinite\" "
+                    "values=\"",
+                    strip->frames);
+        else if (s > 1)
             fputc(';', out);
-        view_sections(out, &view, &plan, strip->hull);
+        put_sections(strip, strip->hull);
     }
     fputs("\"/></path>\n", out);
-    svg_text(out, view.x + view.width / 2, view.y + view.height + 16, 11, SVG_MIDDLE,
-             "direction %zu in motion", k + 1);
     return GALV_OK;
 }
 
-static galv_status draw_all(FILE *out, struct strip *strip)
+static galv_status draw_row(struct strip *strip, size_t k)
 {
-    galv_status status = GALV_OK;
-    svg_begin(out, 10 + PANEL * (double)(strip->frames + 1),
-              HEADER + (PANEL + 20) * (double)strip->modes);
-    const char *slash = strrchr(strip->file->hull, '/');
-    svg_text(out, 10, 20, 14, SVG_START, "%s", slash ? slash + 1 : strip->file->hull);
-    for (size_t k = 0; k < strip->modes && !status; k++) {
-        for (size_t f = 0; f < strip->frames && !status; f++)
-            status = draw_frame(out, strip, k, f);
-        if (!status)
-            status = draw_motion(out, strip, k);
+    for (size_t f = 0; f <= strip->frames; f++) {
+        bool moving = f == strip->frames;
+        galv_status status = move_hull(strip, k, moving ? 0 : f);
+        strip->frame.left = 10 + (PANEL + GAP) * (double)f;
+        strip->frame.top = HEADER + (PANEL + 2 * GAP) * (double)k;
+        put_hull(strip, galv_model_parent(strip->file->model), parent_pen);
+        if (!status && moving)
+            status = put_motion(strip, k);
+        if (status)
+            return status;
+        double x = strip->frame.left + PANEL / 2.0, y = strip->frame.top + PANEL + 14;
+        if (moving) {
+            plot_text(&strip->sheet, x, y, 11, PLOT_MIDDLE, PLOT_INK, "direction %zu in motion",
+                      k + 1);
+            continue;
+        }
+        put_hull(strip, strip->hull, moved_pen);
+        plot_text(&strip->sheet, x, y, 11, PLOT_MIDDLE, PLOT_INK, "u_{%zu} = %.3g m", k + 1,
+                  strip->u[k]);
     }
-    svg_end(out);
-    return status;
+    return GALV_OK;
 }
 
-static int animate(const struct use *use)
+static bool animate(struct strip *strip, const char *output)
+{
+    const char *slash = strrchr(strip->file->hull, '/');
+    galv_status status = GALV_OK;
+    fit(strip);
+    if (!plot_open(&strip->sheet, (PANEL + GAP) * (double)(strip->frames + 1),
+                   HEADER + (PANEL + 2 * GAP) * (double)strip->modes, "Latent directions"))
+        return false;
+    plot_text(&strip->sheet, 10, 20, 13, PLOT_START, PLOT_INK,
+              "%s: body plans along the latent directions, the parent in grey",
+              slash ? slash + 1 : strip->file->hull);
+    plot_scale_bar(&strip->sheet, strip->sheet.width - 30, 10,
+                   PANEL / (strip->frame.x.high - strip->frame.x.low), 100);
+    for (size_t k = 0; k < strip->modes && !status; k++)
+        status = draw_row(strip, k);
+    if (!status)
+        return plot_save(&strip->sheet, output);
+    plot_free(&strip->sheet);
+    return cli_refuse("%s", galv_last_error());
+}
+
+static bool run(const struct use *use)
 {
     const galv_model *model = use->file.model;
     struct strip strip = {.file = &use->file,
@@ -138,21 +166,13 @@ static int animate(const struct use *use)
     if (strip.modes > galv_model_modes(model))
         strip.modes = galv_model_modes(model);
     if (!use->file.girth)
-        return cli_fail("the points of this model are no grid of sections");
-    struct cli_file out;
-    if (!cli_file_open(&out, use->output))
-        return cli_fail("%s: %s", use->output, strerror(errno));
+        return cli_refuse("the points of this model are no grid of sections");
     strip.hull = malloc(galv_model_coordinates(model) * sizeof *strip.hull);
     strip.u = malloc(galv_model_modes(model) * sizeof *strip.u);
-    bool memory = strip.hull && strip.u;
-    galv_status status = memory ? draw_all(out.stream, &strip) : GALV_ERROR_MEMORY;
+    bool good = strip.hull && strip.u ? animate(&strip, use->output) : cli_refuse("out of memory");
     free(strip.hull);
     free(strip.u);
-    if (status) {
-        cli_file_abandon(&out);
-        return cli_fail("%s", memory ? galv_last_error() : "out of memory");
-    }
-    return cli_file_commit(&out) ? CLI_OK : cli_fail("%s: %s", use->output, strerror(errno));
+    return good;
 }
 
 int command_animate(int argc, char **argv)
@@ -161,7 +181,12 @@ int command_animate(int argc, char **argv)
     int result = use_start(argc, argv, help, USE_OUTPUT | USE_MODES | USE_FRAMES, &use);
     if (result != -1)
         return result;
-    result = use.output ? animate(&use) : cli_usage("-o FILE.svg is required");
+    if (!use.output)
+        result = cli_usage("-o FILE.svg is required");
+    else if (!plot_check_path("-o", use.output))
+        result = CLI_USAGE;
+    else
+        result = run(&use) ? CLI_OK : CLI_FAILED;
     use_free(&use);
     return result;
 }
