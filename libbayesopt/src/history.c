@@ -13,6 +13,7 @@ void point_clear(struct point *point)
     free(point->constraints);
     free(point->gradient);
     free(point->note);
+    attributes_free(&point->attributes);
     *point = (struct point){0};
 }
 
@@ -149,6 +150,8 @@ bayesopt_status bayesopt_get(const bayesopt *bo, size_t i, bayesopt_point *point
         .variance = p->variance,
         .note = p->note ? p->note : "",
         .feasible = point_feasible(bo, p),
+        .n_attributes = p->attributes.n,
+        .attributes = p->attributes.items,
     };
     return BAYESOPT_OK;
 }

@@ -10,6 +10,12 @@
 
 struct store;
 
+/* Attributes with texts of their own. */
+struct attributes {
+    size_t n;
+    bayesopt_attribute *items;
+};
+
 /* A point of the history. Arrays are owned. */
 struct point {
     uint64_t id;
@@ -23,6 +29,7 @@ struct point {
     double *gradient;    /* [d] or NULL, the caller's units */
     double variance;
     char *note;
+    struct attributes attributes;
     int64_t session; /* that asked it; 0: none any more, to be asked again */
     bool detached;   /* pending, to be told by another session */
 };
@@ -74,6 +81,12 @@ struct point *history_find(struct bayesopt *bo, uint64_t id);
 void history_truncate(struct bayesopt *bo, size_t n);
 void point_clear(struct point *point);
 size_t history_count_state(const struct bayesopt *bo, bayesopt_state state);
+
+/* attributes.c: append copies; false: out of memory. check finds what no list may hold. */
+bool attributes_append(struct attributes *list, const bayesopt_attribute *attribute);
+bool attributes_copy(struct attributes *list, size_t n, const bayesopt_attribute *from);
+void attributes_free(struct attributes *list);
+bayesopt_status attributes_check(size_t n, const bayesopt_attribute *attributes);
 
 /* strategy.c: the next point in [0,1]^d, as proposal number id. */
 bayesopt_status strategy_propose(struct bayesopt *bo, uint64_t id, double *u, bayesopt_phase *phase,

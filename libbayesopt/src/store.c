@@ -144,6 +144,11 @@ static bayesopt_status read_outcome(struct bayesopt *bo, sqlite3_stmt *s, struct
             return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
         strcpy(p->note, (const char *)sqlite3_column_text(s, NOTE));
     }
+    if (p->state != BAYESOPT_STATE_PENDING) {
+        bayesopt_status status = store_get_attributes(bo->store, p);
+        if (status)
+            return status;
+    }
     if (p->state != BAYESOPT_STATE_DONE)
         return BAYESOPT_OK;
     p->f = sqlite3_column_double(s, F);
@@ -248,6 +253,9 @@ bayesopt_status store_begin(struct bayesopt *bo)
 {
     if (!bo->store)
         return BAYESOPT_OK;
+    if (bo->store->read_only)
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "%s was opened for reading only",
+                             bo->store->path);
     bayesopt_status status = store_execute(bo->store, "BEGIN IMMEDIATE");
     if (status)
         return status;
@@ -312,6 +320,8 @@ static bayesopt_status write_point(struct bayesopt *bo, const struct point *p, c
     else if (sqlite3_step(s) != SQLITE_DONE)
         status = store_error(bo->store, "writing the store");
     sqlite3_finalize(s);
+    if (!status && p->state != BAYESOPT_STATE_PENDING)
+        status = store_put_attributes(bo->store, p);
     return status;
 }
 

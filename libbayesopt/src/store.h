@@ -1,6 +1,6 @@
 /* The history on disk. Without an open store every call succeeds and does nothing. */
-#ifndef BAYESOPT_STORE_H
-#define BAYESOPT_STORE_H
+#ifndef BAYESOPT_STORE_CALLS_H
+#define BAYESOPT_STORE_CALLS_H
 
 #include "internal.h"
 

@@ -12,19 +12,8 @@ struct store {
     int64_t change;        /* last change read or written */
     int64_t change_before; /* the same when the transaction began */
     bool in_transaction;
+    bool read_only;
 };
-
-/* What makes two runs the same problem, every entry as numbers. */
-struct field {
-    const char *name;
-    size_t n;
-    double *values;
-};
-enum { FIELDS = 22 };
-
-/* Fills fields [FIELDS] with the problem of bo; free each values. false: out of memory. */
-bool problem_fields(const struct bayesopt *bo, struct field *fields);
-void problem_fields_free(struct field *fields);
 
 bayesopt_status store_error(const struct store *store, const char *doing);
 bayesopt_status store_execute(struct store *store, const char *sql);
@@ -39,6 +28,17 @@ bayesopt_status store_put_meta(struct store *store, const char *key, const doubl
 bayesopt_status store_get_meta(struct store *store, const char *key, double **values, size_t *n);
 /* Reads rows changed since the last reading, and the models' state. */
 bayesopt_status store_refresh(struct bayesopt *bo);
+
+/* store_record.c: what is kept beside a point's value. */
+bayesopt_status store_put_attributes(struct store *store, const struct point *point);
+bayesopt_status store_get_attributes(struct store *store, struct point *point);
+
+/* store_problem.c: written; compared with what was written, the budget excepted, which becomes
+ * bo's; read into a new object. */
+bayesopt_status store_put_problem(struct bayesopt *bo);
+bayesopt_status store_compare_problem(struct bayesopt *bo);
+bayesopt_status store_get_problem(struct store *store, bayesopt_input_constraint input_constraint,
+                                  void *input_user_data, bayesopt **bo);
 
 /* store_session.c */
 bayesopt_status store_session_start(struct bayesopt *bo);

@@ -2,118 +2,14 @@
 #include "error.h"
 #include "store_internal.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const double format_version = 1;
+/* The one version of the schema, kept as entry 'format'. 1: version 0.1.0 of the library, without
+ * texts, arrays and attributes. */
+enum { FORMAT = 2 };
 
-static double *numbers(size_t n, const double *from)
-{
-    double *values = malloc((n ? n : 1) * sizeof *values);
-    for (size_t i = 0; values && i < n; i++)
-        values[i] = from[i];
-    return values;
-}
-
-/* Seeds have 64 bits, numbers 53: two halves. */
-static void split_seed(uint64_t seed, double *halves)
-{
-    halves[0] = (double)(seed >> 32);
-    halves[1] = (double)(seed & UINT32_MAX);
-}
-
-/* Order and names of the fields; what each holds is said where it is read back, in open_problem().
- */
-enum {
-    BOX_LOWER,
-    BOX_UPPER,
-    SEED,
-    INITIAL_KIND,
-    INITIAL_N,
-    INITIAL_X,
-    CONSTRAINT_LOWER,
-    CONSTRAINT_UPPER,
-    LINEAR_A,
-    LINEAR_B,
-    N_INPUT_CONSTRAINTS,
-    NOISE,
-    KERNEL,
-    SCALES,
-    TRANSFORM,
-    STRATEGY,
-    POLISH,
-    N_LEVELS,
-    LEVEL_COST_RATIO,
-    MODEL,
-    GROUP,
-    STOPS
-};
-
-/* Stores of version 0.1.0 know nothing of these; they have the default values. */
-static bool is_recent(size_t field)
-{
-    return field == MODEL || field == GROUP;
-}
-
-bool problem_fields(const struct bayesopt *bo, struct field *f)
-{
-    const bayesopt_options *o = &bo->options;
-    double seed[2], kind = o->initial_kind, n = (double)o->initial_n;
-    double inputs = (double)o->n_input_constraints, noise = o->noise, kernel = o->kernel;
-    double scales = o->scales, transform = o->transform, strategy = o->strategy, polish = o->polish;
-    double levels = (double)o->n_levels;
-    double stops[2] = {(double)o->stop_no_improvement, o->stop_expected_improvement};
-    double model[4] = {o->mean, o->choice, o->acquisition, o->lcb_factor}, *group = NULL;
-    split_seed(o->seed, seed);
-    if (bo->group && !(group = malloc(bo->d * sizeof *group)))
-        return false;
-    for (size_t j = 0; j < bo->d && group; j++)
-        group[j] = (double)bo->group[j];
-    const struct {
-        const char *name;
-        size_t n;
-        const double *from;
-    } list[FIELDS] = {
-        [BOX_LOWER] = {"lower", bo->d, bo->lower},
-        [BOX_UPPER] = {"upper", bo->d, bo->upper},
-        [SEED] = {"seed", 2, seed},
-        [INITIAL_KIND] = {"initial_kind", 1, &kind},
-        [INITIAL_N] = {"initial_n", 1, &n},
-        [INITIAL_X] = {"initial_x", bo->initial_x ? o->initial_n * bo->d : 0, bo->initial_x},
-        [CONSTRAINT_LOWER] = {"constraint_lower", o->n_constraints, bo->constraint_lower},
-        [CONSTRAINT_UPPER] = {"constraint_upper", o->n_constraints, bo->constraint_upper},
-        [LINEAR_A] = {"linear_a", o->n_linear * bo->d, bo->linear_a},
-        [LINEAR_B] = {"linear_b", o->n_linear, bo->linear_b},
-        [N_INPUT_CONSTRAINTS] = {"n_input_constraints", 1, &inputs},
-        [NOISE] = {"noise", 1, &noise},
-        [KERNEL] = {"kernel", 1, &kernel},
-        [SCALES] = {"scales", 1, &scales},
-        [TRANSFORM] = {"transform", 1, &transform},
-        [STRATEGY] = {"strategy", 1, &strategy},
-        [POLISH] = {"polish", 1, &polish},
-        [N_LEVELS] = {"n_levels", 1, &levels},
-        [LEVEL_COST_RATIO] = {"level_cost_ratio", 1, &o->level_cost_ratio},
-        [MODEL] = {"model", 4, model},
-        [GROUP] = {"group", group ? bo->d : 0, group},
-        [STOPS] = {"stops", 2, stops},
-    };
-    bool ok = true;
-    for (size_t i = 0; i < FIELDS; i++) {
-        f[i] = (struct field){list[i].name, list[i].n, numbers(list[i].n, list[i].from)};
-        ok = ok && f[i].values;
-    }
-    free(group);
-    return ok;
-}
-
-void problem_fields_free(struct field *fields)
-{
-    for (size_t i = 0; i < FIELDS; i++)
-        free(fields[i].values);
-}
-
-static const char schema[] =
+static const char schema_1[] =
     "CREATE TABLE bayesopt_meta(key TEXT PRIMARY KEY, value BLOB NOT NULL) WITHOUT ROWID;"
     "CREATE TABLE bayesopt_points(id INTEGER PRIMARY KEY, change INTEGER NOT NULL UNIQUE,"
     " phase INTEGER NOT NULL, state INTEGER NOT NULL, level INTEGER NOT NULL,"
@@ -122,6 +18,14 @@ static const char schema[] =
     "INTEGER);"
     "CREATE TABLE bayesopt_sessions(id INTEGER PRIMARY KEY AUTOINCREMENT, host TEXT NOT NULL,"
     " pid INTEGER NOT NULL, started INTEGER NOT NULL, ended INTEGER NOT NULL);";
+
+static const char schema_2[] =
+    "CREATE TABLE bayesopt_texts(name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;"
+    "CREATE TABLE bayesopt_arrays(name TEXT PRIMARY KEY, rows INTEGER NOT NULL,"
+    " columns INTEGER NOT NULL, value BLOB NOT NULL);"
+    "CREATE TABLE bayesopt_attributes(list TEXT NOT NULL, row INTEGER NOT NULL,"
+    " position INTEGER NOT NULL, name TEXT NOT NULL, number REAL, text TEXT,"
+    " PRIMARY KEY(list, row, name)) WITHOUT ROWID;";
 
 /* One integer from a query without parameters. */
 static bayesopt_status query_count(struct store *store, const char *sql, int64_t *count)
@@ -156,73 +60,35 @@ static bayesopt_status check_intact(struct store *store)
     return status;
 }
 
+static bayesopt_status put_format(struct store *store)
+{
+    const double format = FORMAT;
+    return store_put_meta(store, "format", &format, 1);
+}
+
 static bayesopt_status create_tables(struct bayesopt *bo)
 {
-    struct field fields[FIELDS];
-    struct store *store = bo->store;
-    bayesopt_status status = store_execute(store, schema);
+    bayesopt_status status = store_execute(bo->store, schema_1);
     if (!status)
-        status = store_put_meta(store, "format", &format_version, 1);
-    bool ok = problem_fields(bo, fields);
-    if (!status && !ok)
-        status = bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
-    for (size_t i = 0; i < FIELDS && !status; i++)
-        status = store_put_meta(store, fields[i].name, fields[i].values, fields[i].n);
-    problem_fields_free(fields);
-    return status ? status : store_put_budget(bo);
+        status = store_execute(bo->store, schema_2);
+    if (!status)
+        status = put_format(bo->store);
+    return status ? status : store_put_problem(bo);
 }
 
-static bayesopt_status check_format(struct store *store)
+static bayesopt_status migrate(struct store *store)
 {
-    double *values;
-    size_t n;
-    bayesopt_status status = store_get_meta(store, "format", &values, &n);
-    if (!status && (!values || n != 1 || values[0] != format_version))
-        status = bayesopt_fail(BAYESOPT_ERROR_FORMAT,
-                               "%s: format %g of the store is not known, expected %g", store->path,
-                               values && n ? values[0] : NAN, format_version);
-    free(values);
-    return status;
+    bayesopt_status status = store_execute(store, schema_2);
+    return status ? status : put_format(store);
 }
 
-static bayesopt_status compare_field(struct store *store, const struct field *field, bool recent)
-{
-    double *values;
-    size_t n;
-    bayesopt_status status = store_get_meta(store, field->name, &values, &n);
-    if (!status && !values && recent)
-        return BAYESOPT_OK;
-    if (!status && (!values || n != field->n))
-        status =
-            bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
-                          "%s belongs to another problem: '%s' has %zu numbers there, %zu here",
-                          store->path, field->name, n, field->n);
-    for (size_t i = 0; i < field->n && !status; i++)
-        if (values[i] != field->values[i])
-            status =
-                bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
-                              "%s belongs to another problem: '%s' number %zu is %g there, %g here",
-                              store->path, field->name, i, values[i], field->values[i]);
-    free(values);
-    return status;
-}
-
-static bayesopt_status compare_problem(struct bayesopt *bo)
-{
-    struct field fields[FIELDS];
-    bayesopt_status status = problem_fields(bo, fields)
-                                 ? BAYESOPT_OK
-                                 : bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
-    for (size_t i = 0; i < STOPS && !status; i++)
-        status = compare_field(bo->store, &fields[i], is_recent(i));
-    problem_fields_free(fields);
-    return status ? status : store_put_budget(bo);
-}
-
-/* Tables of this library: 0 = none in an empty file, 1 = all there; anything else is refused. */
-static bayesopt_status classify(struct store *store, bool *present)
+/* The format of a store, 0 for an empty file; anything else is refused. */
+static bayesopt_status classify(struct store *store, int *format)
 {
     int64_t ours = 0, all = 0;
+    double *values = NULL;
+    size_t n = 0;
+    *format = 0;
     bayesopt_status status =
         query_count(store,
                     "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name IN "
@@ -230,13 +96,30 @@ static bayesopt_status classify(struct store *store, bool *present)
                     &ours);
     if (!status)
         status = query_count(store, "SELECT count(*) FROM sqlite_master", &all);
-    if (!status && ours != 3 && all > 0)
-        status =
-            bayesopt_fail(BAYESOPT_ERROR_FORMAT,
-                          "%s: a database, but not a store of libbayesopt: %lld of its 3 tables",
-                          store->path, (long long)ours);
-    *present = ours == 3;
+    if (status || !all)
+        return status;
+    if (ours != 3)
+        return bayesopt_fail(BAYESOPT_ERROR_FORMAT,
+                             "%s: a database, but not a store of libbayesopt: %lld of its 3 tables",
+                             store->path, (long long)ours);
+    status = store_get_meta(store, "format", &values, &n);
+    double found = !status && n == 1 ? values[0] : 0;
+    free(values);
+    if (!status && found > FORMAT)
+        return bayesopt_fail(BAYESOPT_ERROR_FORMAT,
+                             "%s: a newer libbayesopt wrote it: format %g, this one knows 1 to %d",
+                             store->path, found, FORMAT);
+    if (!status && found != 1 && found != 2)
+        return bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: entry 'format' is damaged", store->path);
+    *format = (int)found;
     return status;
+}
+
+static void disconnect(struct store *store)
+{
+    sqlite3_close(store->db);
+    free(store->path);
+    free(store);
 }
 
 static bayesopt_status connect(const char *path, int flags, struct store **out)
@@ -249,8 +132,9 @@ static bayesopt_status connect(const char *path, int flags, struct store **out)
         return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
     }
     strcpy(store->path, path);
+    store->read_only = flags == SQLITE_OPEN_READONLY;
     bayesopt_status status = BAYESOPT_OK;
-    if (sqlite3_open_v2(path, &store->db, SQLITE_OPEN_READWRITE | flags, NULL) != SQLITE_OK)
+    if (sqlite3_open_v2(path, &store->db, flags, NULL) != SQLITE_OK)
         status = bayesopt_fail(BAYESOPT_ERROR_FILE, "%s: %s", path,
                                store->db ? sqlite3_errmsg(store->db) : "out of memory");
     /* Another session's ask holds the lock while it computes. */
@@ -261,40 +145,32 @@ static bayesopt_status connect(const char *path, int flags, struct store **out)
     if (!status)
         status = check_intact(store);
     if (status) {
-        sqlite3_close(store->db);
-        free(store->path);
-        free(store);
+        disconnect(store);
         return status;
     }
     *out = store;
     return BAYESOPT_OK;
 }
 
-static void disconnect(struct bayesopt *bo)
-{
-    sqlite3_close(bo->store->db);
-    free(bo->store->path);
-    free(bo->store);
-    bo->store = NULL;
-}
-
 bayesopt_status bayesopt_open_store(bayesopt *bo, const char *path)
 {
-    bool present = false;
+    int format;
+    if (!bo || !path)
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "a store needs an optimisation and a path");
     if (bo->store || bo->n_points)
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
                              "%s: a store is opened once and before the first point", path);
-    bayesopt_status status = connect(path, SQLITE_OPEN_CREATE, &bo->store);
+    bayesopt_status status = connect(path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, &bo->store);
     if (status)
         return status;
     status = store_execute(bo->store, "BEGIN IMMEDIATE");
     bo->store->in_transaction = !status;
     if (!status)
-        status = classify(bo->store, &present);
-    if (!status && present)
-        status = check_format(bo->store);
+        status = classify(bo->store, &format);
+    if (!status && format && format < FORMAT)
+        status = migrate(bo->store);
     if (!status)
-        status = present ? compare_problem(bo) : create_tables(bo);
+        status = format ? store_compare_problem(bo) : create_tables(bo);
     if (!status)
         status = store_session_start(bo);
     if (!status)
@@ -306,7 +182,8 @@ bayesopt_status bayesopt_open_store(bayesopt *bo, const char *path)
     if (status) {
         store_rollback(bo);
         history_truncate(bo, 0);
-        disconnect(bo);
+        disconnect(bo->store);
+        bo->store = NULL;
     }
     return status;
 }
@@ -315,123 +192,51 @@ void store_close(struct bayesopt *bo)
 {
     if (!bo->store)
         return;
-    store_session_end(bo);
-    disconnect(bo);
+    if (!bo->store->read_only)
+        store_session_end(bo);
+    disconnect(bo->store);
+    bo->store = NULL;
 }
 
-static double first(const struct field *field)
+/* Puts a copy in memory, brought up to date, in the place of an older file. */
+static bayesopt_status migrate_copy(struct store *store)
 {
-    return field->n ? field->values[0] : NAN;
-}
-
-/* The options and bounds a store was created with; arrays stay in the fields. */
-static bayesopt_status create_from_fields(const struct field *f, double budget,
-                                          bayesopt_input_constraint input_constraint,
-                                          void *input_user_data, bayesopt **bo)
-{
-    bayesopt_options o;
-    size_t d = f[BOX_LOWER].n, *group = malloc(d * sizeof *group);
-    if (!group)
-        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
-    for (size_t j = 0; j < f[GROUP].n; j++)
-        group[j] = (size_t)f[GROUP].values[j];
-    bayesopt_options_init(&o);
-    o.group = f[GROUP].n ? group : NULL;
-    o.seed = ((uint64_t)first(&f[SEED]) << 32) | (uint64_t)f[SEED].values[1];
-    o.max_evaluations = (size_t)budget;
-    o.initial_kind = (bayesopt_design_kind)first(&f[INITIAL_KIND]);
-    o.initial_n = (size_t)first(&f[INITIAL_N]);
-    o.initial_x = f[INITIAL_X].n ? f[INITIAL_X].values : NULL;
-    o.n_constraints = f[CONSTRAINT_LOWER].n;
-    o.constraint_lower = f[CONSTRAINT_LOWER].values;
-    o.constraint_upper = f[CONSTRAINT_UPPER].values;
-    o.n_linear = f[LINEAR_B].n;
-    o.linear_a = f[LINEAR_A].values;
-    o.linear_b = f[LINEAR_B].values;
-    o.noise = (bayesopt_noise)first(&f[NOISE]);
-    o.kernel = (bayesopt_kernel)first(&f[KERNEL]);
-    o.scales = (bayesopt_scales)first(&f[SCALES]);
-    o.transform = (bayesopt_transform)first(&f[TRANSFORM]);
-    o.strategy = (bayesopt_strategy)first(&f[STRATEGY]);
-    o.polish = first(&f[POLISH]) != 0;
-    o.mean = (bayesopt_mean)f[MODEL].values[0];
-    o.choice = (bayesopt_choice)f[MODEL].values[1];
-    o.acquisition = (bayesopt_acquisition)f[MODEL].values[2];
-    o.lcb_factor = f[MODEL].values[3];
-    o.n_levels = (size_t)first(&f[N_LEVELS]);
-    o.level_cost_ratio = first(&f[LEVEL_COST_RATIO]);
-    o.stop_no_improvement = (size_t)first(&f[STOPS]);
-    o.stop_expected_improvement = f[STOPS].values[1];
-    o.n_input_constraints = (size_t)first(&f[N_INPUT_CONSTRAINTS]);
-    o.input_constraint = input_constraint;
-    o.input_user_data = input_user_data;
-    bool missing = o.n_input_constraints && !input_constraint;
-    size_t wanted = o.n_input_constraints;
-    if (missing)
-        o.n_input_constraints = 0;
-    bayesopt_status status = bayesopt_create(d, f[BOX_LOWER].values, f[BOX_UPPER].values, &o, bo);
-    free(group);
-    if (!status && missing) {
-        (*bo)->options.n_input_constraints = wanted;
-        (*bo)->constraints_missing = true;
+    sqlite3 *copy = NULL, *file = store->db;
+    sqlite3_backup *backup = NULL;
+    if (sqlite3_open(":memory:", &copy) == SQLITE_OK &&
+        (backup = sqlite3_backup_init(copy, "main", file, "main")) != NULL)
+        sqlite3_backup_step(backup, -1);
+    bool ok = backup && sqlite3_backup_finish(backup) == SQLITE_OK;
+    if (!ok) {
+        bayesopt_status status =
+            bayesopt_fail(BAYESOPT_ERROR_FILE, "%s: copying the store: %s", store->path,
+                          copy ? sqlite3_errmsg(copy) : "out of memory");
+        sqlite3_close(copy);
+        return status;
     }
-    return status;
+    sqlite3_close(file);
+    store->db = copy;
+    return migrate(store);
 }
 
-static bool is_array(size_t field)
+/* An existing store and the optimisation it describes, which does not hold it yet. */
+static bayesopt_status open_existing(const char *path, int flags,
+                                     bayesopt_input_constraint input_constraint,
+                                     void *input_user_data, struct store **store, bayesopt **bo)
 {
-    return field <= BOX_UPPER || (field >= INITIAL_X && field <= LINEAR_B) || field == GROUP;
-}
-
-/* Arrays must fit each other, everything else has the length it has in any problem. */
-static bayesopt_status check_lengths(const struct store *store, const struct field *f,
-                                     const size_t *expected)
-{
-    size_t d = f[BOX_LOWER].n, m = f[CONSTRAINT_LOWER].n, initial = f[INITIAL_X].n;
-    for (size_t i = 0; i < FIELDS; i++)
-        if (!f[i].values || (!is_array(i) && f[i].n != expected[i]))
-            return bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: entry '%s' is damaged", store->path,
-                                 f[i].name);
-    if (!d || f[BOX_UPPER].n != d || f[CONSTRAINT_UPPER].n != m ||
-        f[LINEAR_A].n != f[LINEAR_B].n * d || (f[GROUP].n && f[GROUP].n != d) ||
-        (initial && (double)initial != first(&f[INITIAL_N]) * (double)d))
-        return bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: its entries do not agree in length",
-                             store->path);
-    return BAYESOPT_OK;
-}
-
-static bayesopt_status read_fields(struct store *store, struct field *fields, double *budget)
-{
-    /* Names and lengths come from a small problem of the library's own. */
-    const double lower = 0, upper = 1;
-    bayesopt *sample;
-    double *values;
-    size_t n, expected[FIELDS];
-    bayesopt_status status = bayesopt_create(1, &lower, &upper, NULL, &sample);
+    int format;
+    bayesopt_status status = connect(path, flags, store);
     if (status)
         return status;
-    bool ok = problem_fields(sample, fields);
-    bayesopt_free(sample);
-    status = ok ? check_format(store) : bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
-    for (size_t i = 0; i < FIELDS && !status; i++) {
-        expected[i] = fields[i].n;
-        status = store_get_meta(store, fields[i].name, &values, &n);
-        if (!status && !values && is_recent(i))
-            continue;
-        free(fields[i].values);
-        fields[i].values = values;
-        fields[i].n = n;
-    }
+    status = classify(*store, &format);
+    if (!status && !format)
+        status = bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: an empty database, not a store", path);
+    if (!status && format < FORMAT && (*store)->read_only)
+        status = migrate_copy(*store);
     if (!status)
-        status = check_lengths(store, fields, expected);
+        status = store_get_problem(*store, input_constraint, input_user_data, bo);
     if (status)
-        return status;
-    status = store_get_meta(store, "budget", &values, &n);
-    if (!status && n != 1)
-        status = bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: entry 'budget' is damaged", store->path);
-    if (!status)
-        *budget = values[0];
-    free(values);
+        disconnect(*store);
     return status;
 }
 
@@ -439,30 +244,36 @@ bayesopt_status bayesopt_open(const char *path, bayesopt_input_constraint input_
                               void *input_user_data, bayesopt **out)
 {
     struct store *store;
-    struct field fields[FIELDS] = {{0}};
-    double budget = 0;
-    bool present = false;
-    bayesopt *bo = NULL;
-    bayesopt_status status = connect(path, 0, &store);
+    bayesopt *bo;
+    if (!path || !out)
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "a store needs a path and a place to be");
+    bayesopt_status status =
+        open_existing(path, SQLITE_OPEN_READWRITE, input_constraint, input_user_data, &store, &bo);
     if (status)
         return status;
-    status = classify(store, &present);
-    if (!status && !present)
-        status = bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: an empty database, not a store", path);
-    if (!status)
-        status = read_fields(store, fields, &budget);
-    if (!status)
-        status = create_from_fields(fields, budget, input_constraint, input_user_data, &bo);
-    problem_fields_free(fields);
-    sqlite3_close(store->db);
-    free(store->path);
-    free(store);
-    if (!status)
-        status = bayesopt_open_store(bo, path);
-    if (status) {
+    disconnect(store);
+    status = bayesopt_open_store(bo, path);
+    if (status)
         bayesopt_free(bo);
+    else
+        *out = bo;
+    return status;
+}
+
+bayesopt_status bayesopt_open_read(const char *path, bayesopt **out)
+{
+    struct store *store;
+    bayesopt *bo;
+    if (!path || !out)
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "a store needs a path and a place to be");
+    bayesopt_status status = open_existing(path, SQLITE_OPEN_READONLY, NULL, NULL, &store, &bo);
+    if (status)
         return status;
-    }
-    *out = bo;
-    return BAYESOPT_OK;
+    bo->store = store;
+    status = store_refresh(bo);
+    if (status)
+        bayesopt_free(bo);
+    else
+        *out = bo;
+    return status;
 }

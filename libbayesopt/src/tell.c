@@ -37,7 +37,7 @@ static bayesopt_status check_result(const struct bayesopt *bo, const bayesopt_re
     if (!(r->variance >= 0 && isfinite(r->variance)))
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
                              "variance %g was told, expected finite and not negative", r->variance);
-    return BAYESOPT_OK;
+    return attributes_check(r->n_attributes, r->attributes);
 }
 
 /* Writes a result into a pending point. A value that is not finite is a failure with a reason. */
@@ -61,7 +61,7 @@ static bayesopt_status record(struct bayesopt *bo, struct point *p, const bayeso
         ok = (p->constraints = copy_numbers(r->constraints, m)) != NULL;
     if (ok && done && r->gradient && all_finite(r->gradient, bo->d))
         ok = (p->gradient = copy_numbers(r->gradient, bo->d)) != NULL;
-    if (!ok)
+    if (!ok || !attributes_copy(&p->attributes, r->n_attributes, r->attributes))
         return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
     p->state = done ? BAYESOPT_STATE_DONE : BAYESOPT_STATE_FAILED;
     p->f = done ? r->f : NAN;
@@ -75,6 +75,7 @@ static void unrecord(struct point *p)
     free(p->note);
     free(p->constraints);
     free(p->gradient);
+    attributes_free(&p->attributes);
     p->note = NULL;
     p->constraints = p->gradient = NULL;
     p->state = BAYESOPT_STATE_PENDING;
@@ -122,24 +123,23 @@ bayesopt_status bayesopt_tell_failed(bayesopt *bo, uint64_t id, const char *reas
     return bayesopt_tell_result(bo, id, &result);
 }
 
-bayesopt_status bayesopt_tell_point(bayesopt *bo, const double *x, double f,
-                                    const double *constraints)
+bayesopt_status bayesopt_tell_point_result(bayesopt *bo, const double *x,
+                                           const bayesopt_result *result, uint64_t *id)
 {
-    bayesopt_result result = {.f = f, .constraints = constraints};
     for (size_t j = 0; j < bo->d; j++)
         if (!(x[j] >= bo->lower[j] && x[j] <= bo->upper[j]))
             return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
                                  "variable %zu of the told point is %g, expected %g to %g", j, x[j],
                                  bo->lower[j], bo->upper[j]);
-    bayesopt_status status = check_result(bo, &result);
+    bayesopt_status status = check_result(bo, result);
     if (!status)
         status = store_begin(bo);
     if (status)
         return status;
     size_t before = bo->n_points;
-    uint64_t id = before ? bo->points[before - 1].id + 1 : 1;
-    struct point *p = history_append(bo, id, x, BAYESOPT_PHASE_EXTERNAL);
-    status = p ? record(bo, p, &result) : bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
+    uint64_t next = before ? bo->points[before - 1].id + 1 : 1;
+    struct point *p = history_append(bo, next, x, BAYESOPT_PHASE_EXTERNAL);
+    status = p ? record(bo, p, result) : bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
     if (!status)
         status = store_insert(bo, p);
     if (!status)
@@ -147,6 +147,15 @@ bayesopt_status bayesopt_tell_point(bayesopt *bo, const double *x, double f,
     if (status) {
         store_rollback(bo);
         history_truncate(bo, before);
+    } else if (id) {
+        *id = next;
     }
     return status;
+}
+
+bayesopt_status bayesopt_tell_point(bayesopt *bo, const double *x, double f,
+                                    const double *constraints)
+{
+    bayesopt_result result = {.f = f, .constraints = constraints};
+    return bayesopt_tell_point_result(bo, x, &result, NULL);
 }

@@ -27,6 +27,7 @@
 #include <bayesopt/design.h>
 #include <bayesopt/gp.h>
 #include <bayesopt/status.h>
+#include <bayesopt/store.h>
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -148,13 +149,14 @@ BAYESOPT_API void bayesopt_free(bayesopt *bo);
  * to the process afterwards; points asked by a session that died are asked again, under their old
  * ids.
  *
- * All tables are called bayesopt_*. After this call the caller may add tables of its own to the
- * same file through its own connection (set a busy timeout: an ask holds the write lock while it
- * computes); they are left alone.
+ * What the caller wants to keep beside the history goes through store.h. All tables are called
+ * bayesopt_*; after this call the caller may still add tables of its own to the same file through
+ * its own connection (set a busy timeout: an ask holds the write lock while it computes); they are
+ * left alone. Stores of older versions are brought up to date.
  *
- * @return BAYESOPT_ERROR_FILE, BAYESOPT_ERROR_FORMAT for a damaged file or a database that is not
- *         such a store, BAYESOPT_ERROR_ARGUMENT if its problem (d, bounds, seed, initial design,
- *         constraints) is not this one's
+ * @return BAYESOPT_ERROR_FILE, BAYESOPT_ERROR_FORMAT for a damaged file, a database that is not
+ *         such a store or one that a newer version wrote, BAYESOPT_ERROR_ARGUMENT if its problem
+ * (d, bounds, seed, initial design, constraints) is not this one's
  */
 BAYESOPT_API bayesopt_status bayesopt_open_store(bayesopt *bo, const char *path);
 
@@ -166,6 +168,13 @@ BAYESOPT_API bayesopt_status bayesopt_open_store(bayesopt *bo, const char *path)
 BAYESOPT_API bayesopt_status bayesopt_open(const char *path,
                                            bayesopt_input_constraint input_constraint,
                                            void *input_user_data, bayesopt **bo);
+
+/**
+ * Creates an optimisation from an existing store, for looking only: nothing in the file or its
+ * folder is written, which both may forbid. History, best point, model and records are there; ask,
+ * tell and whatever else would write return BAYESOPT_ERROR_ARGUMENT.
+ */
+BAYESOPT_API bayesopt_status bayesopt_open_read(const char *path, bayesopt **bo);
 
 /** Leaves the points asked in this session pending after bayesopt_free(): they will be told later,
  * perhaps by another process. Without a store there is nothing to leave and nothing happens. */
@@ -199,6 +208,9 @@ typedef struct bayesopt_result {
         *gradient;    /**< [d] df/dx borrowed; NULL if not known. The best 400/d points' are used */
     double variance;  /**< of f, with BAYESOPT_NOISE_KNOWN; else 0 */
     const char *note; /**< copied into the history; NULL for none */
+    size_t n_attributes;                  /**< default 0 */
+    const bayesopt_attribute *attributes; /**< [n_attributes] copied, kept with the value or the
+                                             failure and written in the same transaction */
 } bayesopt_result;
 
 /**
@@ -229,6 +241,12 @@ BAYESOPT_API bayesopt_status bayesopt_tell_failed(bayesopt *bo, uint64_t id, con
 BAYESOPT_API bayesopt_status bayesopt_tell_point(bayesopt *bo, const double *x, double f,
                                                  const double *constraints);
 
+/** bayesopt_tell_point() with everything that is known.
+ * @param id  filled with the id it got; NULL allowed */
+BAYESOPT_API bayesopt_status bayesopt_tell_point_result(bayesopt *bo, const double *x,
+                                                        const bayesopt_result *result,
+                                                        uint64_t *id);
+
 /**
  * The best evaluation so far: least f among those that satisfy the outcome constraints.
  * @param x   [d] filled; NULL allowed
@@ -252,6 +270,8 @@ typedef struct bayesopt_point {
     double variance;           /**< of f */
     const char *note;          /**< reason of the failure, or the caller's note; "" if none */
     bool feasible;             /**< done, and within the outcome constraints */
+    size_t n_attributes;
+    const bayesopt_attribute *attributes; /**< [n_attributes] what was told beside the value */
 } bayesopt_point;
 
 /** Number of points in the history, pending ones included. */
