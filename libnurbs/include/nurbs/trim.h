@@ -6,7 +6,7 @@
 #define NURBS_TRIM_H
 
 #include <nurbs/curve.h>
-#include <nurbs/surface.h>
+#include <nurbs/patches.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -34,6 +34,20 @@ extern "C" {
 NURBS_API nurbs_status nurbs_surface_untrim(const nurbs_surface *surface, size_t n,
                                             const nurbs_curve *const *loop, double tolerance,
                                             nurbs_surface **patch, double *deviation);
+
+/** The same for loops with any number of corners, and holes: the inside is divided by straight
+ * lines of the parameter plane into four-sided pieces. A loop with fewer than four corners gets some
+ * in the middle of its longest sides; with up to ten, the four that give the most even map count,
+ * the others become kinks in a side.
+ * @param loops      number of loops; the one that encloses most is the outer one
+ * @param count      [loops] curves of each
+ * @param loop       [loops][count] as above
+ * @param patches    the pieces are added; nothing is added after a failure */
+NURBS_API nurbs_status nurbs_surface_untrim_parts(const nurbs_surface *surface, size_t loops,
+                                                  const size_t *count,
+                                                  const nurbs_curve *const *const *loop,
+                                                  double tolerance, nurbs_patches *patches,
+                                                  double *deviation);
 
 #ifdef __cplusplus
 }

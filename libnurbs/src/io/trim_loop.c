@@ -15,13 +15,18 @@ static const double kink_angle = 1 * 3.14159265358979323846 / 180;
  * share of its mean. */
 static const double least_speed = 0.25;
 
+bool trim_loop_turns(const loop_part *part)
+{
+    return fabs(part->turn) > corner_angle;
+}
+
 static double metres(const trim_loop *loop, const double a[2], const double b[2])
 {
     return hypot(loop->stretch[0] * (b[0] - a[0]), loop->stretch[1] * (b[1] - a[1]));
 }
 
 /* Place x in [0,1] of a part; derivative with respect to x if not NULL. */
-static void part_point(const loop_part *part, double x, double uv[2], double *derivative)
+void trim_loop_point(const loop_part *part, double x, double uv[2], double *derivative)
 {
     double c[6] = {0}, length = part->to - part->from;
     double t = x == 1 ? part->to : part->from + x * length;
@@ -148,8 +153,8 @@ static nurbs_status close_joint(trim_loop *loop, size_t k)
 {
     size_t next = (k + 1) % loop->count;
     double a[2], b[2], p[3], q[3];
-    part_point(&loop->part[k], 1, a, NULL);
-    part_point(&loop->part[next], 0, b, NULL);
+    trim_loop_point(&loop->part[k], 1, a, NULL);
+    trim_loop_point(&loop->part[next], 0, b, NULL);
     nurbs_status status = space_point(loop, a, p);
     if (status == NURBS_OK)
         status = space_point(loop, b, q);
@@ -193,16 +198,16 @@ static nurbs_status close_joints(trim_loop *loop)
 }
 
 /* Twice the area inside, positive when counterclockwise; fills the lengths of the parts. */
-static double measure(trim_loop *loop)
+double trim_loop_measure(trim_loop *loop)
 {
     double area = 0;
     for (size_t k = 0; k < loop->count; k++) {
         loop_part *part = &loop->part[k];
         double a[2], b[2];
-        part_point(part, 0, a, NULL);
+        trim_loop_point(part, 0, a, NULL);
         part->length = 0;
         for (int i = 1; i <= SAMPLES; i++) {
-            part_point(part, (double)i / SAMPLES, b, NULL);
+            trim_loop_point(part, (double)i / SAMPLES, b, NULL);
             part->length += metres(loop, a, b);
             area += a[0] * b[1] - b[0] * a[1];
             memcpy(a, b, sizeof a);
@@ -211,7 +216,7 @@ static double measure(trim_loop *loop)
     return area;
 }
 
-static void turn_round(trim_loop *loop)
+void trim_loop_reverse(trim_loop *loop)
 {
     for (size_t k = 0; k < loop->count; k++) {
         loop_part *part = &loop->part[k];
@@ -232,23 +237,23 @@ static void turn_round(trim_loop *loop)
 static void direction(const trim_loop *loop, const loop_part *part, int end, double out[2])
 {
     double uv[2], inner[2];
-    part_point(part, end, uv, out);
+    trim_loop_point(part, end, uv, out);
     for (int d = 0; d < 2; d++)
         out[d] *= loop->stretch[d];
     if (hypot(out[0], out[1]) > 1e-6 * part->length)
         return;
-    part_point(part, end ? 0.99 : 0.01, inner, NULL);
+    trim_loop_point(part, end ? 0.99 : 0.01, inner, NULL);
     for (int d = 0; d < 2; d++)
         out[d] = loop->stretch[d] * (end ? uv[d] - inner[d] : inner[d] - uv[d]);
 }
 
-static void find_turns(trim_loop *loop)
+void trim_loop_find_turns(trim_loop *loop)
 {
     for (size_t k = 0; k < loop->count; k++) {
         double a[2], b[2];
         direction(loop, &loop->part[k], 1, a);
         direction(loop, &loop->part[(k + 1) % loop->count], 0, b);
-        loop->part[k].turn = fabs(atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]));
+        loop->part[k].turn = atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]);
     }
 }
 
@@ -270,7 +275,7 @@ static nurbs_status find_corners(const trim_loop *loop, size_t corner[SIDES])
 {
     size_t found = 0;
     for (size_t k = 0; k < loop->count; k++)
-        if (loop->part[k].turn > corner_angle) {
+        if (trim_loop_turns(&loop->part[k])) {
             if (found < SIDES)
                 corner[found] = k;
             found++;
@@ -297,8 +302,8 @@ static nurbs_status start_side(const trim_loop *loop, size_t a, size_t b, loop_s
         sum += loop->part[(side->first + k) % loop->count].length;
     }
     side->share[side->count] = 1;
-    part_point(&loop->part[side->first], 0, side->start, NULL);
-    part_point(&loop->part[b], 1, side->end, NULL);
+    trim_loop_point(&loop->part[side->first], 0, side->start, NULL);
+    trim_loop_point(&loop->part[b], 1, side->end, NULL);
     return NURBS_OK;
 }
 
@@ -311,9 +316,9 @@ static int runs_along(const trim_loop *loop, const loop_side *side, int d)
     for (size_t k = 0; k < side->count; k++) {
         const loop_part *part = &loop->part[(side->first + k) % loop->count];
         double a[2], b[2];
-        part_point(part, 0, a, NULL);
+        trim_loop_point(part, 0, a, NULL);
         for (int i = 1; i <= SAMPLES; i++) {
-            part_point(part, (double)i / SAMPLES, b, NULL);
+            trim_loop_point(part, (double)i / SAMPLES, b, NULL);
             if (!((b[d] - a[d]) / extent >= least_speed * metres(loop, a, b) / length))
                 return 0;
             memcpy(a, b, sizeof a);
@@ -339,7 +344,7 @@ static void choose_parameter(const trim_loop *loop, loop_side *a, loop_side *b)
         side->along = along;
         for (size_t k = 1; k < side->count; k++) {
             double uv[2];
-            part_point(&loop->part[(side->first + k) % loop->count], 0, uv, NULL);
+            trim_loop_point(&loop->part[(side->first + k) % loop->count], 0, uv, NULL);
             side->share[k] =
                 (uv[along] - side->start[along]) / (side->end[along] - side->start[along]);
         }
@@ -348,15 +353,17 @@ static void choose_parameter(const trim_loop *loop, loop_side *a, loop_side *b)
 
 /* The first side is the one that runs most in the direction of u, so that the patch is directed
  * like the surface. */
-static nurbs_status find_sides(trim_loop *loop)
+nurbs_status trim_loop_sides(trim_loop *loop, const size_t corner[4])
 {
-    size_t corner[SIDES], first = 0;
+    size_t first = 0;
     double at[SIDES][2], best = -INFINITY;
-    nurbs_status status = find_corners(loop, corner);
-    if (status != NURBS_OK)
-        return status;
+    nurbs_status status = NURBS_OK;
+    for (int k = 0; k < SIDES; k++) {
+        free(loop->side[k].share);
+        loop->side[k] = (loop_side){0};
+    }
     for (size_t k = 0; k < SIDES; k++)
-        part_point(&loop->part[corner[k]], 1, at[k], NULL);
+        trim_loop_point(&loop->part[corner[k]], 1, at[k], NULL);
     for (size_t k = 0; k < SIDES; k++) {
         double run =
             at[(k + 1) % SIDES][0] - at[k][0] + at[(k + 2) % SIDES][0] - at[(k + 3) % SIDES][0];
@@ -375,8 +382,8 @@ static nurbs_status find_sides(trim_loop *loop)
     return NURBS_OK;
 }
 
-nurbs_status trim_loop_create(const nurbs_surface *surface, size_t n,
-                              const nurbs_curve *const *curves, double tolerance, trim_loop *loop)
+nurbs_status trim_loop_open(const nurbs_surface *surface, size_t n,
+                            const nurbs_curve *const *curves, double tolerance, trim_loop *loop)
 {
     *loop = (trim_loop){.surface = surface, .tolerance = tolerance};
     for (int d = 0; d < 2; d++) {
@@ -390,12 +397,22 @@ nurbs_status trim_loop_create(const nurbs_surface *surface, size_t n,
         status = close_joints(loop);
     if (status != NURBS_OK)
         return status;
-    double area = measure(loop);
+    double area = trim_loop_measure(loop);
     if (area < 0)
-        turn_round(loop);
+        trim_loop_reverse(loop);
     drop_short_parts(loop);
-    find_turns(loop);
-    return find_sides(loop);
+    trim_loop_find_turns(loop);
+    return NURBS_OK;
+}
+
+nurbs_status trim_loop_create(const nurbs_surface *surface, size_t n,
+                              const nurbs_curve *const *curves, double tolerance, trim_loop *loop)
+{
+    size_t corner[SIDES];
+    nurbs_status status = trim_loop_open(surface, n, curves, tolerance, loop);
+    if (status == NURBS_OK)
+        status = find_corners(loop, corner);
+    return status == NURBS_OK ? trim_loop_sides(loop, corner) : status;
 }
 
 void trim_loop_free(trim_loop *loop)
@@ -410,12 +427,12 @@ void trim_loop_free(trim_loop *loop)
 static double find_coordinate(const loop_part *part, int d, double value, double guess)
 {
     double low = 0, high = 1, x = guess, uv[2], slope[2], ends[2];
-    part_point(part, 0, uv, NULL);
+    trim_loop_point(part, 0, uv, NULL);
     ends[0] = uv[d];
-    part_point(part, 1, uv, NULL);
+    trim_loop_point(part, 1, uv, NULL);
     ends[1] = uv[d];
     for (int step = 0; step < 60; step++) {
-        part_point(part, x, uv, slope);
+        trim_loop_point(part, x, uv, slope);
         double error = uv[d] - value;
         if ((error < 0) == (ends[1] > ends[0]))
             low = x;
@@ -443,15 +460,15 @@ void trim_loop_side(const trim_loop *loop, const loop_side *side, double s, doub
         int d = side->along;
         double value = side->start[d] + s * (side->end[d] - side->start[d]);
         x = find_coordinate(part, d, value, x);
-        part_point(part, x, uv, NULL);
+        trim_loop_point(part, x, uv, NULL);
         uv[d] = value;
         return;
     }
-    part_point(part, x, uv, NULL);
+    trim_loop_point(part, x, uv, NULL);
 }
 
 int trim_loop_kink(const trim_loop *loop, const loop_side *side, size_t k, double *s)
 {
     *s = side->share[k + 1];
-    return loop->part[(side->first + k) % loop->count].turn > kink_angle || side->along < 0;
+    return fabs(loop->part[(side->first + k) % loop->count].turn) > kink_angle || side->along < 0;
 }

@@ -308,11 +308,28 @@ static nurbs_status untrim(work *w, nurbs_surface **patch, double *deviation)
                                                                 : status;
 }
 
+nurbs_status untrim_sides(trim_loop *loop, double tolerance, nurbs_surface **patch,
+                          double *deviation)
+{
+    work w = {.loop = *loop};
+    w.loop.tolerance = tolerance;
+    *patch = NULL;
+    nurbs_status status = untrim(&w, patch, deviation);
+    if (status != NURBS_OK) {
+        nurbs_surface_free(*patch);
+        *patch = NULL;
+    }
+    free(w.kept);
+    for (int d = 0; d < 2; d++)
+        knot_list_free(&w.along[d]);
+    return status;
+}
+
 nurbs_status nurbs_surface_untrim(const nurbs_surface *surface, size_t n,
                                   const nurbs_curve *const *loop, double tolerance,
                                   nurbs_surface **patch, double *deviation)
 {
-    work w = {.loop = {0}};
+    trim_loop opened = {0};
     double reached = 0;
     *patch = NULL;
     if (!surface || n == 0 || !loop)
@@ -322,19 +339,11 @@ nurbs_status nurbs_surface_untrim(const nurbs_surface *surface, size_t n,
             return nurbs_fail(NURBS_ERROR_ARGUMENT, "curve %zu of the loop is NULL", k);
     if (!(isfinite(tolerance) && tolerance > 0))
         return nurbs_fail(NURBS_ERROR_ARGUMENT, "tolerance %g, expected a length > 0", tolerance);
-    nurbs_status status = trim_loop_create(surface, n, loop, 0.25 * tolerance, &w.loop);
-    w.loop.tolerance = tolerance;
+    nurbs_status status = trim_loop_create(surface, n, loop, 0.25 * tolerance, &opened);
     if (status == NURBS_OK)
-        status = untrim(&w, patch, &reached);
-    if (status != NURBS_OK) {
-        nurbs_surface_free(*patch);
-        *patch = NULL;
-    } else if (deviation) {
+        status = untrim_sides(&opened, tolerance, patch, &reached);
+    if (status == NURBS_OK && deviation)
         *deviation = reached;
-    }
-    trim_loop_free(&w.loop);
-    free(w.kept);
-    for (int d = 0; d < 2; d++)
-        knot_list_free(&w.along[d]);
+    trim_loop_free(&opened);
     return status;
 }
