@@ -200,8 +200,6 @@ static void untrims_faces_of_four_sides(void)
         {OCCT("trimmed_brep"), "deviation", 1, 1, {0, 1}, {0, 1}},
         {OCCT("bspline_brep"), "0 of them trimmed", 1, 0, {0, 1}, {0, 1}},
         {DATA("trimmed_twice"), "1 of these resampled", 2, 0, {0, 0.5}, {0, 1}},
-        {DATA("trimmed_hole"), "the whole surface is kept: it has 2 loops", 1, 0, {0, 1}, {0, 1}},
-        {DATA("trimmed_triangle"), "has 3 corners", 1, 0, {0, 1}, {0, 1}},
         {DATA("untrimmed_face"), "0 of them trimmed", 1, 0, {0, 1}, {0, 1}},
         {DATA("plain"), "0 of them trimmed", 1, 0, {0, 1}, {0, 1}},
     };
@@ -234,6 +232,58 @@ static void untrims_faces_of_four_sides(void)
     CU_ASSERT_EQUAL(nurbs_patches_read_iges_untrimmed(DATA("trimmed"), NAN, &none, NULL, 0),
                     NURBS_ERROR_ARGUMENT);
     nurbs_surface_free(expected);
+}
+
+static int inside_curved_with_hole(double u, double v)
+{
+    return v < 1 - 0.4 * u * (1 - u) && hypot(u - 0.5, v - 0.5) > 0.1;
+}
+
+static int inside_triangle(double u, double v)
+{
+    return v < 2 * u && v < 2 * (1 - u);
+}
+
+/* Midpoint rule over the part of the parameter plane inside the loops. */
+static double area_inside(const nurbs_surface *surface, int (*inside)(double, double))
+{
+    enum { N = 1000 };
+    double sum = 0;
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < N; j++) {
+            double uv[2] = {(i + 0.5) / N, (j + 0.5) / N}, s[9];
+            if (!inside(uv[0], uv[1]))
+                continue;
+            nurbs_surface_eval(surface, 1, 1, uv, s);
+            const double *a = s + 3, *b = s + 6;
+            sum += sqrt(pow(a[1] * b[2] - a[2] * b[1], 2) + pow(a[2] * b[0] - a[0] * b[2], 2) +
+                        pow(a[0] * b[1] - a[1] * b[0], 2));
+        }
+    return sum / (N * N);
+}
+
+/* Three corners, and a hole: several pieces that have the area inside the loops. */
+static void divides_other_loops(void)
+{
+    static const struct {
+        const char *path;
+        int (*inside)(double, double);
+    } files[] = {{DATA("trimmed_hole"), inside_curved_with_hole},
+                 {DATA("trimmed_triangle"), inside_triangle}};
+    nurbs_surface *surface = expected_patch();
+    for (size_t f = 0; f < sizeof files / sizeof files[0]; f++) {
+        char report[1000];
+        nurbs_patches *patches = NULL;
+        nurbs_moments moments;
+        CU_ASSERT_EQUAL_FATAL(
+            nurbs_patches_read_iges_untrimmed(files[f].path, 1e-6, &patches, report, sizeof report),
+            NURBS_OK);
+        CU_ASSERT_PTR_NOT_NULL(strstr(report, "1 of these resampled"));
+        CU_ASSERT_EQUAL(nurbs_patches_moments(patches, &moments, NULL), NURBS_OK);
+        CHECK_RELATIVE(moments.area, area_inside(surface, files[f].inside), 2e-4);
+        nurbs_patches_free(patches);
+    }
+    nurbs_surface_free(surface);
 }
 
 static char *read_text(const char *path, size_t *length)
@@ -454,6 +504,7 @@ static const struct check_case cases[] = {
     {"reads rational surfaces of open cascade", reads_rational_surfaces_of_open_cascade},
     {"tells transformations of faces", tells_transformations_of_faces},
     {"untrims faces of four sides", untrims_faces_of_four_sides},
+    {"divides other loops", divides_other_loops},
     {"reads curves", reads_curves},
     {"refuses damaged files", refuses_damaged_files},
     {"refuses endless composites", refuses_endless_composites},

@@ -18,19 +18,25 @@ extern "C" {
 NURBS_API nurbs_status nurbs_patches_read_json(const char *path, nurbs_patches **patches);
 NURBS_API nurbs_status nurbs_patches_write_json(const nurbs_patches *patches, const char *path);
 
-/** IGES 5.3: all entities 128 are read as patches, with their transformations 124, lengths
- * converted to metres. Unclamped knots are clamped, a stated range inside the knots is cut out,
- * equal weights are dropped: all exact. Faces (144/142, 143/141, 510/508) are inspected: where a
- * loop cuts a surface the whole surface is kept and the report says so.
- * @param report  NULL: not wanted; filled with counts of all entities and what was changed
+/** IGES 5.3 in metres, with transformations 124 and placed subfigures 308/408 (nested); blank
+ * entities are left out. B-spline surfaces 128: unclamped knots are clamped, a stated range inside
+ * the knots is cut out, equal weights are dropped: all exact. Ruled surfaces 118, surfaces of
+ * revolution 120, tabulated cylinders 122, spheres 196 and tori 198 are exact rational surfaces.
+ * Faces (144/142, 143/141, 510/508, and 108 with its own curve) on these, on planes 108 and 190, on
+ * cylinders 192 and cones 194 and on exact offsets 140 end at their loops: exact where these run
+ * along parameter lines (or are straight, on a plane), else resampled within 1e-6 of their extent.
+ * Where a loop cuts a B-spline surface, the whole surface is kept and the report says so.
+ * @param report  NULL: not wanted; filled with counts of all entities and what was changed or left
+ *                out, with type and directory number
  * The writer writes entities 128 in metres with as many digits as restore every bit. */
 NURBS_API nurbs_status nurbs_patches_read_iges(const char *path, nurbs_patches **patches,
                                                char *report, size_t report_size);
 NURBS_API nurbs_status nurbs_patches_write_iges(const nurbs_patches *patches, const char *path);
 
-/** The same, but every surface whose faces all have one loop of four sides is replaced by patches
- * that end at these loops: nurbs_surface_untrim() with its tolerance in metres (0: never). The
- * report tells the deviation of each patch, and why other surfaces are kept whole. */
+/** The same, but every B-spline surface is replaced by patches that end at the loops of its faces:
+ * nurbs_surface_untrim(), or nurbs_surface_untrim_parts() where they have not four sides, with its
+ * tolerance in metres (0: never), which then holds for faces on other surfaces too. The report
+ * tells the deviation of each patch, and why other surfaces are kept whole. */
 NURBS_API nurbs_status nurbs_patches_read_iges_untrimmed(const char *path, double tolerance,
                                                          nurbs_patches **patches, char *report,
                                                          size_t report_size);

@@ -36,9 +36,9 @@ NURBS_API nurbs_status nurbs_surface_untrim(const nurbs_surface *surface, size_t
                                             nurbs_surface **patch, double *deviation);
 
 /** The same for loops with any number of corners, and holes: the inside is divided by straight
- * lines of the parameter plane into four-sided pieces. A loop with fewer than four corners gets some
- * in the middle of its longest sides; with up to ten, the four that give the most even map count,
- * the others become kinks in a side.
+ * lines of the parameter plane into four-sided pieces. A loop with fewer than four corners gets
+ * some in the middle of its longest sides; with up to ten, the four that give the most even map
+ * count, the others become kinks in a side.
  * @param loops      number of loops; the one that encloses most is the outer one
  * @param count      [loops] curves of each
  * @param loop       [loops][count] as above

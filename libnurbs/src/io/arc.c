@@ -18,9 +18,7 @@ static void arc_knots(double a, double b, size_t pieces, double *knots)
 {
     size_t n = 2 * pieces + 1;
     for (size_t k = 0; k < n + 3; k++)
-        knots[k] = k < 3    ? a
-                   : k >= n ? b
-                            : a + (b - a) * (double)((k - 1) / 2) / (double)pieces;
+        knots[k] = k < 3 ? a : k >= n ? b : a + (b - a) * (double)((k - 1) / 2) / (double)pieces;
 }
 
 nurbs_status arc_create(const double center[3], const double x[3], const double y[3], double a,
@@ -67,16 +65,15 @@ nurbs_status curve_transform(const nurbs_curve *curve, const double matrix[9],
     for (size_t k = 0; k < n; k++)
         for (size_t c = 0; c < 3; c++)
             points[3 * k + c] = dot3(matrix + 3 * c, from + 3 * k) + shift[c];
-    nurbs_status status =
-        nurbs_curve_create(nurbs_curve_degree(curve), n, nurbs_curve_knots(curve), points,
-                           nurbs_curve_weights(curve), result);
+    nurbs_status status = nurbs_curve_create(nurbs_curve_degree(curve), n, nurbs_curve_knots(curve),
+                                             points, nurbs_curve_weights(curve), result);
     free(points);
     return status;
 }
 
 /* Row k of a revolved net: the profile turned by `angle`, its distance from the axis by 1 / w. */
 static void turn_profile(const nurbs_curve *profile, const double origin[3],
-                         double const frame[3][3], double angle, double w, double *points,
+                         const double (*frame)[3], double angle, double w, double *points,
                          double *weights)
 {
     size_t m = nurbs_curve_size(profile);
@@ -93,7 +90,7 @@ static void turn_profile(const nurbs_curve *profile, const double origin[3],
     }
 }
 
-nurbs_status revolve(const nurbs_curve *profile, const double origin[3], double const frame[3][3],
+nurbs_status revolve(const nurbs_curve *profile, const double origin[3], const double (*frame)[3],
                      double a, double b, nurbs_surface **surface)
 {
     *surface = NULL;
@@ -109,9 +106,9 @@ nurbs_status revolve(const nurbs_curve *profile, const double origin[3], double 
         turn_profile(profile, origin, frame, a + (double)k * half, k % 2 ? cos(half) : 1,
                      points + 3 * k * m, weights + k * m);
     arc_knots(a, b, pieces, knots);
-    nurbs_status status = nurbs_surface_create(
-        (const int[]){2, nurbs_curve_degree(profile)}, (const size_t[]){n, m}, knots,
-        nurbs_curve_knots(profile), points, weights, surface);
+    nurbs_status status =
+        nurbs_surface_create((const int[]){2, nurbs_curve_degree(profile)}, (const size_t[]){n, m},
+                             knots, nurbs_curve_knots(profile), points, weights, surface);
     free(points);
     return status;
 }

@@ -17,7 +17,7 @@ static const double straight_share = 0.1;
 /* Where no edge bounds a range exactly, it is extended by this share. */
 static const double margin = 0.05;
 
-nurbs_status face_add_loop(face *f)
+nurbs_status face_add_loop(cad_face *f)
 {
     if (f->count == f->room) {
         size_t room = f->room ? 2 * f->room : 4;
@@ -31,7 +31,7 @@ nurbs_status face_add_loop(face *f)
     return NURBS_OK;
 }
 
-nurbs_status face_add_curve(face *f, nurbs_curve *curve)
+nurbs_status face_add_curve(cad_face *f, nurbs_curve *curve)
 {
     face_loop *loop = &f->loop[f->count - 1];
     if (loop->count == loop->room) {
@@ -48,7 +48,7 @@ nurbs_status face_add_curve(face *f, nurbs_curve *curve)
     return NURBS_OK;
 }
 
-nurbs_status face_reverse_loop(face *f)
+nurbs_status face_reverse_loop(cad_face *f)
 {
     face_loop *loop = &f->loop[f->count - 1];
     for (size_t k = 0; k < loop->count; k++) {
@@ -67,7 +67,7 @@ nurbs_status face_reverse_loop(face *f)
     return NURBS_OK;
 }
 
-void face_free(face *f)
+void face_free(cad_face *f)
 {
     for (size_t k = 0; k < f->count; k++) {
         for (size_t i = 0; i < f->loop[k].count; i++)
@@ -76,12 +76,12 @@ void face_free(face *f)
     }
     free(f->loop);
     form_free(&f->form);
-    *f = (face){0};
+    *f = (cad_face){0};
 }
 
 /* What is at work: loops as paths, and the surface over their range. */
 typedef struct cover {
-    const face *face;
+    const cad_face *face;
     size_t count;
     face_path *path;
     double low[2], high[2];
@@ -134,7 +134,7 @@ static void shift_path(face_path *path, int d, double by)
 /* Whole periods apart from the domain of a closed curve or surface, or from the outer loop. */
 static void place_paths(cover *c)
 {
-    const form *f = &c->face->form;
+    const cad_form *f = &c->face->form;
     for (int d = 0; d < 2; d++) {
         double period = f->period[d], low[2], high[2];
         if (!(period > 0))
@@ -161,7 +161,7 @@ static bool bounded(const face_path *path, int d, double value, double slack)
 /* The range of the surface to be built: exact where parameter lines end it. */
 static void find_range(cover *c)
 {
-    const form *f = &c->face->form;
+    const cad_form *f = &c->face->form;
     path_range(&c->path[0], c->low, c->high);
     for (int d = 0; d < 2; d++) {
         double length = c->high[d] - c->low[d], slack = 1e-9 * length;
@@ -227,7 +227,7 @@ static nurbs_status bilinear(const cover *c, size_t n, double corner[4][2], nurb
 {
     static const size_t order[4] = {0, 3, 1, 2};
     static const double knots[4] = {0, 0, 1, 1};
-    const form *f = &c->face->form;
+    const cad_form *f = &c->face->form;
     double points[12], area = 0;
     *patch = NULL;
     for (size_t k = 0; k < n; k++) {
@@ -256,7 +256,8 @@ static nurbs_status cut_spline(cover *c)
     for (int d = 0; d < 2; d++) {
         const double *knots = nurbs_surface_knots(c->surface, d);
         double first = knots[0], last = knots[nurbs_surface_size(c->surface, d)],
-               low = fmax(c->low[d], first), high = fmin(c->high[d], last), slack = 1e-9 * (last - first);
+               low = fmax(c->low[d], first), high = fmin(c->high[d], last),
+               slack = 1e-9 * (last - first);
         nurbs_surface *part;
         if (low <= first + slack && high >= last - slack)
             continue;
@@ -276,7 +277,7 @@ static nurbs_status segment(const double from[2], const double to[2], nurbs_curv
 }
 
 /* The image of a curve in a plane is exact. */
-static nurbs_status flat_image(const form *f, const face_trace *trace, nurbs_curve **curve)
+static nurbs_status flat_image(const cad_form *f, const face_trace *trace, nurbs_curve **curve)
 {
     double matrix[9] = {0}, shift[3] = {0}, from = trace->t[0], to = trace->t[trace->count - 1];
     nurbs_curve *part;
@@ -334,7 +335,7 @@ static nurbs_status check_image(cover *c, const face_trace *trace, const nurbs_c
 
 static nurbs_status image(cover *c, const face_trace *trace, nurbs_curve **curve)
 {
-    const form *f = &c->face->form;
+    const cad_form *f = &c->face->form;
     double from[2], to[2];
     *curve = NULL;
     if (trace->curve && f->kind == FORM_PLANE && nurbs_curve_degree(trace->curve) > 1)
@@ -396,7 +397,7 @@ static nurbs_status resample(cover *c, double tolerance, nurbs_patches *patches,
 /* Follows all loops; those that say nothing (a vertex, a collapsed edge) are passed over. */
 static nurbs_status follow_loops(cover *c)
 {
-    const face *f = c->face;
+    const cad_face *f = c->face;
     c->path = calloc(f->count + 1, sizeof *c->path);
     if (!c->path)
         return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu loops", f->count);
@@ -459,7 +460,7 @@ static nurbs_status make_patches(cover *c, double tolerance, nurbs_patches *made
     return status == NURBS_OK ? nurbs_patches_add(made, c->surface) : status;
 }
 
-nurbs_status face_patches(const face *f, double tolerance, nurbs_patches *patches,
+nurbs_status face_patches(const cad_face *f, double tolerance, nurbs_patches *patches,
                           face_outcome *outcome)
 {
     cover c = {.face = f, .slack = straight_share * tolerance};

@@ -56,7 +56,7 @@ static void fill_loose(face_trace *trace, const bool *loose, int d)
     }
 }
 
-static void unwrap(const face *f, face_trace *trace, int d)
+static void unwrap(const cad_face *f, face_trace *trace, int d)
 {
     double period = f->form.period[d], *ab = trace->ab;
     for (size_t k = 1; k < trace->count && period > 0; k++) {
@@ -67,7 +67,7 @@ static void unwrap(const face *f, face_trace *trace, int d)
 
 /* At the seam of a closed spline or profile its first and last parameter are one place. An end that
  * lies there takes the side from which its curve comes. */
-static void choose_seam_side(const face *f, face_trace *trace, int d)
+static void choose_seam_side(const cad_face *f, face_trace *trace, int d)
 {
     double period = f->form.period[d], slack = 1e-7 * period, *ab = trace->ab + d;
     size_t last = trace->count - 1;
@@ -82,7 +82,7 @@ static void choose_seam_side(const face *f, face_trace *trace, int d)
 }
 
 /* A parameter that hardly changes, in metres, is made constant. */
-static void straighten(const face *f, face_trace *trace, int d, double slack, double *moved)
+static void straighten(const cad_face *f, face_trace *trace, int d, double slack, double *moved)
 {
     double low = INFINITY, high = -INFINITY, stretch[2], widest = 0;
     for (size_t k = 0; k < trace->count; k++) {
@@ -107,7 +107,7 @@ static void straighten(const face *f, face_trace *trace, int d, double slack, do
 }
 
 /* Follows a curve from t = from to `to`, which may be smaller. */
-static nurbs_status trace_part(const face *f, const nurbs_curve *curve, double from, double to,
+static nurbs_status trace_part(const cad_face *f, const nurbs_curve *curve, double from, double to,
                                size_t count, double slack, face_path *path, double *moved)
 {
     face_trace *trace = append(path, count);
@@ -146,7 +146,7 @@ static nurbs_status trace_part(const face *f, const nurbs_curve *curve, double f
 }
 
 /* The smooth parts of a curve, between the knots at which it may turn. */
-static nurbs_status trace_curve(const face *f, const nurbs_curve *curve, double slack,
+static nurbs_status trace_curve(const cad_face *f, const nurbs_curve *curve, double slack,
                                 face_path *path, double *moved)
 {
     size_t p = (size_t)nurbs_curve_degree(curve), size = nurbs_curve_size(curve), spans = 0;
@@ -181,9 +181,8 @@ static const double *trace_end(const face_trace *trace, int end)
 static void rotate_to_pole(face_path *path)
 {
     size_t first = 0;
-    while (first < path->count &&
-           !(path->trace[first].loose[0] &&
-             path->trace[(first + path->count - 1) % path->count].loose[1]))
+    while (first < path->count && !(path->trace[first].loose[0] &&
+                                    path->trace[(first + path->count - 1) % path->count].loose[1]))
         first++;
     if (first == path->count)
         return;
@@ -196,7 +195,7 @@ static void rotate_to_pole(face_path *path)
 
 /* Two poles leave two chains: the one that climbs bounds the face on the side of growing angle when
  * the loop runs counterclockwise. */
-static void order_chains(const face *f, face_path *path, size_t second)
+static void order_chains(const cad_face *f, face_path *path, size_t second)
 {
     for (int d = 0; d < 2; d++) {
         double period = f->form.period[d];
@@ -217,7 +216,7 @@ static void order_chains(const face *f, face_path *path, size_t second)
 }
 
 /* Shifts every part by whole periods to where the one before ends. */
-static void join_parts(const face *f, face_path *path)
+static void join_parts(const cad_face *f, face_path *path)
 {
     size_t poles = 0, second = 0;
     rotate_to_pole(path);
@@ -243,13 +242,13 @@ static void join_parts(const face *f, face_path *path)
         order_chains(f, path, second);
     for (int d = 0; d < 2 && !closes_in_pole; d++)
         if (f->form.period[d] > 0)
-            path->winding[d] = f->form.period[d] *
-                               round((trace_end(last, 1)[d] - trace_end(first, 0)[d]) /
-                                     f->form.period[d]);
+            path->winding[d] =
+                f->form.period[d] *
+                round((trace_end(last, 1)[d] - trace_end(first, 0)[d]) / f->form.period[d]);
 }
 
-nurbs_status face_path_create(const face *f, const face_loop *loop, double slack, face_path *path,
-                              double *moved)
+nurbs_status face_path_create(const cad_face *f, const face_loop *loop, double slack,
+                              face_path *path, double *moved)
 {
     nurbs_status status = NURBS_OK;
     *path = (face_path){0};
@@ -277,7 +276,7 @@ static nurbs_status add_line(face_path *path, const double from[2], const double
 }
 
 /* The pole on the inside of a loop that winds about parameter d. */
-static nurbs_status close_with_pole(const face *f, face_path *path, int d)
+static nurbs_status close_with_pole(const cad_face *f, face_path *path, int d)
 {
     bool above = (path->winding[d] > 0) != f->reversed;
     double pole = above != (d == 1) ? f->form.high[!d] : f->form.low[!d], stretch[2], usual[2],
@@ -300,7 +299,7 @@ static nurbs_status close_with_pole(const face *f, face_path *path, int d)
 
 /* Appends `other`, shifted to begin where the seam from the end of `path` arrives, and a seam back.
  */
-static nurbs_status join_round(const face *f, face_path *path, face_path *other, int d)
+static nurbs_status join_round(const cad_face *f, face_path *path, face_path *other, int d)
 {
     double start[2], end[2], from[2], to[2];
     memcpy(start, trace_end(&path->trace[0], 0), sizeof start);
@@ -326,7 +325,7 @@ static nurbs_status join_round(const face *f, face_path *path, face_path *other,
     return status;
 }
 
-nurbs_status face_close_paths(const face *f, size_t *count, face_path *paths)
+nurbs_status face_close_paths(const cad_face *f, size_t *count, face_path *paths)
 {
     for (int d = 0; d < 2; d++) {
         size_t winding[3], found = 0;

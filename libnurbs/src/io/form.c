@@ -15,7 +15,7 @@ static const double turn = 6.28318530717958647693;
 /* Lengths below this share of a form's size are none. */
 static const double negligible = 1e-9;
 
-nurbs_status form_frame(form *f, const double origin[3], const double axis[3],
+nurbs_status form_frame(cad_form *f, const double origin[3], const double axis[3],
                         const double reference[3])
 {
     memcpy(f->origin, origin, sizeof f->origin);
@@ -27,7 +27,7 @@ nurbs_status form_frame(form *f, const double origin[3], const double axis[3],
     return NURBS_OK;
 }
 
-static void set_limits(form *f, double low, double high, double angle_period, double period)
+static void set_limits(cad_form *f, double low, double high, double angle_period, double period)
 {
     const bool round = f->kind == FORM_REVOLVED;
     f->low[0] = f->kind == FORM_EXTRUDED ? low : round ? 0 : -INFINITY;
@@ -38,18 +38,18 @@ static void set_limits(form *f, double low, double high, double angle_period, do
     f->period[1] = period;
 }
 
-void form_plane(form *f)
+void form_plane(cad_form *f)
 {
     f->kind = FORM_PLANE;
     set_limits(f, 0, 0, 0, 0);
 }
 
-void form_cylinder(form *f, double radius)
+void form_cylinder(cad_form *f, double radius)
 {
     form_cone(f, radius, 0);
 }
 
-void form_cone(form *f, double radius, double half_angle)
+void form_cone(cad_form *f, double radius, double half_angle)
 {
     f->kind = FORM_REVOLVED;
     f->profile = PROFILE_LINE;
@@ -60,7 +60,7 @@ void form_cone(form *f, double radius, double half_angle)
                f->slope[0] < 0 ? -radius / f->slope[0] : INFINITY, turn, 0);
 }
 
-void form_torus(form *f, double major, double minor)
+void form_torus(cad_form *f, double major, double minor)
 {
     f->kind = FORM_REVOLVED;
     f->profile = PROFILE_CIRCLE;
@@ -96,7 +96,7 @@ static double closed_period(const nurbs_curve *curve)
     double low, high;
     curve_domain(curve, &low, &high);
     return distance3(p, p + 3 * (nurbs_curve_size(curve) - 1)) <= 1e-9 * extent(curve) ? high - low
-                                                                                        : 0;
+                                                                                       : 0;
 }
 
 /* The point of the profile that is farthest from the axis gives the frame its first direction. */
@@ -117,7 +117,7 @@ static void widest(const nurbs_curve *profile, const double origin[3], const dou
 }
 
 /* A profile that is one straight line in the frame's half plane gives a cylinder or a cone. */
-static bool straight_profile(form *f, const nurbs_curve *profile)
+static bool straight_profile(cad_form *f, const nurbs_curve *profile)
 {
     const double *p = nurbs_curve_points(profile);
     size_t n = nurbs_curve_size(profile);
@@ -140,7 +140,7 @@ static bool straight_profile(form *f, const nurbs_curve *profile)
     return true;
 }
 
-nurbs_status form_revolved(form *f, const double origin[3], const double axis[3],
+nurbs_status form_revolved(cad_form *f, const double origin[3], const double axis[3],
                            nurbs_curve *profile)
 {
     double wide[3], matrix[9], zero[3] = {0, 0, 0}, low, high;
@@ -174,7 +174,7 @@ nurbs_status form_revolved(form *f, const double origin[3], const double axis[3]
     return curve_transform(profile, matrix, zero, &f->flat);
 }
 
-nurbs_status form_extruded(form *f, const double direction[3], nurbs_curve *profile)
+nurbs_status form_extruded(cad_form *f, const double direction[3], nurbs_curve *profile)
 {
     double matrix[9] = {0}, zero[3] = {0, 0, 0}, low, high;
     f->curve = profile;
@@ -219,7 +219,7 @@ static bool closed_in(const nurbs_surface *surface, int direction)
     return apart <= 1e-9 * size;
 }
 
-nurbs_status form_spline(form *f, nurbs_surface *surface)
+nurbs_status form_spline(cad_form *f, nurbs_surface *surface)
 {
     f->kind = FORM_SPLINE;
     f->surface = surface;
@@ -232,16 +232,16 @@ nurbs_status form_spline(form *f, nurbs_surface *surface)
     return nurbs_locator_create(surface, &f->locator);
 }
 
-void form_free(form *f)
+void form_free(cad_form *f)
 {
     nurbs_curve_free(f->curve);
     nurbs_curve_free(f->flat);
     nurbs_surface_free(f->surface);
     nurbs_locator_free(f->locator);
-    *f = (form){0};
+    *f = (cad_form){0};
 }
 
-nurbs_status form_move(form *f, const double matrix[9], const double shift[3])
+nurbs_status form_move(cad_form *f, const double matrix[9], const double shift[3])
 {
     double moved[3];
     nurbs_status status = NURBS_OK;
@@ -264,7 +264,7 @@ nurbs_status form_move(form *f, const double matrix[9], const double shift[3])
     return status;
 }
 
-nurbs_status form_offset(form *f, double distance)
+nurbs_status form_offset(cad_form *f, double distance)
 {
     if (f->kind == FORM_PLANE) {
         along3(f->origin, distance, f->frame[2], f->origin);
@@ -291,12 +291,13 @@ nurbs_status form_offset(form *f, double distance)
     return NURBS_OK;
 }
 
-static nurbs_status invert_profile(const form *f, const double flat[3], double *t)
+static nurbs_status invert_profile(const cad_form *f, const double flat[3], double *t)
 {
     return nurbs_curve_closest(f->flat, 1, flat, t, NULL);
 }
 
-static nurbs_status invert_revolved(const form *f, const double q[3], double ab[2], bool loose[2])
+static nurbs_status invert_revolved(const cad_form *f, const double q[3], double ab[2],
+                                    bool loose[2])
 {
     double x = dot3(q, f->frame[0]), y = dot3(q, f->frame[1]), h = dot3(q, f->frame[2]),
            r = hypot(x, y), size = fmax(fmax(fabs(f->radius), f->minor), fabs(h));
@@ -319,7 +320,7 @@ static nurbs_status invert_revolved(const form *f, const double q[3], double ab[
 }
 
 /* Where the surface has collapsed to a point, the parameter along that edge is loose. */
-static nurbs_status invert_spline(const form *f, const double p[3], double ab[2], bool loose[2])
+static nurbs_status invert_spline(const cad_form *f, const double p[3], double ab[2], bool loose[2])
 {
     double s[9], speed[2];
     nurbs_status status = nurbs_locator_closest(f->locator, 1, p, ab, NULL);
@@ -334,7 +335,7 @@ static nurbs_status invert_spline(const form *f, const double p[3], double ab[2]
     return NURBS_OK;
 }
 
-nurbs_status form_invert(const form *f, const double p[3], double ab[2], bool loose[2])
+nurbs_status form_invert(const cad_form *f, const double p[3], double ab[2], bool loose[2])
 {
     double q[3];
     nurbs_status status = NURBS_OK;
@@ -362,7 +363,7 @@ nurbs_status form_invert(const form *f, const double p[3], double ab[2], bool lo
     }
 }
 
-static double profile_speed(const form *f, double t)
+static double profile_speed(const cad_form *f, double t)
 {
     double c[6] = {0}, low, high;
     curve_domain(f->curve, &low, &high);
@@ -371,7 +372,7 @@ static double profile_speed(const form *f, double t)
     return norm3(c + 3);
 }
 
-void form_stretch(const form *f, const double ab[2], double stretch[2])
+void form_stretch(const cad_form *f, const double ab[2], double stretch[2])
 {
     double s[9] = {0}, inside[2];
     stretch[0] = stretch[1] = 1;
@@ -410,7 +411,7 @@ static nurbs_status line_create(const double a[3], const double b[3], double low
 }
 
 /* The stretch of the profile from `low` to `high` of its natural parameter. */
-static nurbs_status profile_part(const form *f, double low, double high, nurbs_curve **part)
+static nurbs_status profile_part(const cad_form *f, double low, double high, nurbs_curve **part)
 {
     double a[3], b[3], from, to;
     *part = NULL;
@@ -456,14 +457,14 @@ static nurbs_status extrude(const nurbs_curve *profile, const double direction[3
         along3(p + 3 * k, high, direction, points + 6 * k + 3);
         weights[2 * k] = weights[2 * k + 1] = w ? w[k] : 1;
     }
-    nurbs_status status = nurbs_surface_create(
-        (const int[]){nurbs_curve_degree(profile), 1}, (const size_t[]){n, 2},
-        nurbs_curve_knots(profile), knots, points, w ? weights : NULL, surface);
+    nurbs_status status = nurbs_surface_create((const int[]){nurbs_curve_degree(profile), 1},
+                                               (const size_t[]){n, 2}, nurbs_curve_knots(profile),
+                                               knots, points, w ? weights : NULL, surface);
     free(points);
     return status;
 }
 
-nurbs_status form_surface(const form *f, const double low[2], const double high[2],
+nurbs_status form_surface(const cad_form *f, const double low[2], const double high[2],
                           nurbs_surface **surface)
 {
     nurbs_curve *part = NULL;
@@ -504,8 +505,8 @@ nurbs_status form_surface(const form *f, const double low[2], const double high[
     return status;
 }
 
-void form_parameters(const form *f, const double low[2], const double high[2], const double ab[2],
-                     double uv[2])
+void form_parameters(const cad_form *f, const double low[2], const double high[2],
+                     const double ab[2], double uv[2])
 {
     uv[0] = ab[0];
     uv[1] = ab[1];

@@ -22,7 +22,7 @@ nurbs_status curve_transform(const nurbs_curve *curve, const double matrix[9],
 
 /* A curve turned about origin + R z from angle a to b, measured in the frame x, y, z: direction u
  * is the angle (of arc_parameter), v the curve's. */
-nurbs_status revolve(const nurbs_curve *profile, const double origin[3], double const frame[3][3],
+nurbs_status revolve(const nurbs_curve *profile, const double origin[3], const double (*frame)[3],
                      double a, double b, nurbs_surface **surface);
 
 typedef enum form_kind { FORM_PLANE, FORM_REVOLVED, FORM_EXTRUDED, FORM_SPLINE } form_kind;
@@ -35,7 +35,7 @@ typedef enum form_profile { PROFILE_LINE, PROFILE_CIRCLE, PROFILE_CURVE } form_p
  *            circle about (radius, 0) of radius `minor`, b its angle; or a curve, b its parameter
  * extruded   along the profile curve; height along frame[2]
  * spline     of the surface */
-typedef struct form {
+typedef struct cad_form {
     form_kind kind;
     form_profile profile;
     double origin[3], frame[3][3];
@@ -46,43 +46,43 @@ typedef struct form {
     struct nurbs_locator *locator;
     double low[2], high[2]; /* limits of the natural parameters; infinite where there are none */
     double period[2];       /* 0: not periodic */
-} form;
+} cad_form;
 
 /* z along `axis`, x near `reference`; axis and reference need no unit length. */
-nurbs_status form_frame(form *f, const double origin[3], const double axis[3],
+nurbs_status form_frame(cad_form *f, const double origin[3], const double axis[3],
                         const double reference[3]);
 /* After form_frame, with radius, minor, slope filled as the kind asks. */
-void form_plane(form *f);
-void form_cylinder(form *f, double radius);
+void form_plane(cad_form *f);
+void form_cylinder(cad_form *f, double radius);
 /* half_angle: between axis and generator, radius at the origin, growing along the axis. */
-void form_cone(form *f, double radius, double half_angle);
-void form_torus(form *f, double major, double minor); /* major 0: a sphere */
+void form_cone(cad_form *f, double radius, double half_angle);
+void form_torus(cad_form *f, double major, double minor); /* major 0: a sphere */
 /* Take the curve or the surface, also when they fail. */
-nurbs_status form_revolved(form *f, const double origin[3], const double axis[3],
+nurbs_status form_revolved(cad_form *f, const double origin[3], const double axis[3],
                            nurbs_curve *profile);
-nurbs_status form_extruded(form *f, const double direction[3], nurbs_curve *profile);
-nurbs_status form_spline(form *f, nurbs_surface *surface);
-void form_free(form *f);
+nurbs_status form_extruded(cad_form *f, const double direction[3], nurbs_curve *profile);
+nurbs_status form_spline(cad_form *f, nurbs_surface *surface);
+void form_free(cad_form *f);
 
 /* Moves the whole form by p -> matrix p + shift of a rigid motion or mirror. */
-nurbs_status form_move(form *f, const double matrix[9], const double shift[3]);
+nurbs_status form_move(cad_form *f, const double matrix[9], const double shift[3]);
 
 /* A surface at the signed distance from a plane, cylinder, cone, sphere or torus; others are
  * refused. */
-nurbs_status form_offset(form *f, double distance);
+nurbs_status form_offset(cad_form *f, double distance);
 
 /* Natural parameters of the point nearest to p; loose[d]: parameter d says nothing there (a pole).
  */
-nurbs_status form_invert(const form *f, const double p[3], double ab[2], bool loose[2]);
+nurbs_status form_invert(const cad_form *f, const double p[3], double ab[2], bool loose[2]);
 
 /* Metres per unit of the natural parameters about the point. */
-void form_stretch(const form *f, const double ab[2], double stretch[2]);
+void form_stretch(const cad_form *f, const double ab[2], double stretch[2]);
 
 /* The exact surface over a range of natural parameters. */
-nurbs_status form_surface(const form *f, const double low[2], const double high[2],
+nurbs_status form_surface(const cad_form *f, const double low[2], const double high[2],
                           nurbs_surface **surface);
 /* Parameters of that surface. */
-void form_parameters(const form *f, const double low[2], const double high[2], const double ab[2],
-                     double uv[2]);
+void form_parameters(const cad_form *f, const double low[2], const double high[2],
+                     const double ab[2], double uv[2]);
 
 #endif

@@ -2,9 +2,13 @@
 #ifndef NURBS_IGES_H
 #define NURBS_IGES_H
 
+#include "io/face.h"
+
 #include <nurbs/curve.h>
 #include <nurbs/status.h>
 #include <nurbs/surface.h>
+
+#include <stdbool.h>
 
 /* Free-format parameters of one record: pieces of text, blanks around them removed. */
 typedef struct iges_record {
@@ -17,6 +21,7 @@ typedef struct iges_entity {
     int type, form;
     size_t transformation; /* index of a 124 plus 1; 0: none */
     int dependent;         /* the two digits of "subordinate" */
+    bool blank;            /* not to be shown */
     size_t first_line;     /* of its parameters, counted from 0 */
     iges_record record;
 } iges_entity;
@@ -64,9 +69,27 @@ nurbs_status iges_transformation(const iges_file *file, size_t entity, double ma
 /* Entity 128 in metres, transformed, clamped, cut to its stated range. */
 nurbs_status iges_surface(iges_file *file, size_t entity, nurbs_surface **surface);
 
-/* Entities 126, 110 and 100 as one curve; scale 1 for curves in parameter space, else metres.
- * Transformed. */
+/* Entities 100, 104, 106, 110, 112 and 126 as one curve; scale 1 for curves in parameter space,
+ * else metres. Transformed. */
 nurbs_status iges_curve(iges_file *file, size_t entity, double scale, nurbs_curve **curve);
+/* The same, and composites 102, in metres: as their parts (nurbs_curves_free), or joined. */
+nurbs_status iges_curve_parts(iges_file *file, size_t entity, size_t *count, nurbs_curve ***parts);
+nurbs_status iges_curve_joined(iges_file *file, size_t entity, nurbs_curve **curve);
+
+/* Of iges_curve, before its transformation. */
+nurbs_status iges_conic(const iges_file *file, size_t entity, double metres, nurbs_curve **curve);
+nurbs_status iges_polyline(const iges_file *file, size_t entity, double metres,
+                           nurbs_curve **curve);
+nurbs_status iges_parametric(const iges_file *file, size_t entity, double metres,
+                             nurbs_curve **curve);
+
+/* Entities that are surfaces by themselves, but no B-spline surface. */
+bool iges_is_form(int type);
+/* The form behind a surface entity of any type, in metres, transformed. The caller frees it. */
+nurbs_status iges_form(iges_file *file, size_t entity, cad_form *f);
+/* The whole of a surface entity that ends by itself: 118, 120, 122, 128, 196, 198, and 140 on
+ * such ones; a plane 108 inside its own curve is a face. NURBS_ERROR_GEOMETRY: it has no end. */
+nurbs_status iges_whole(iges_file *file, size_t entity, nurbs_surface **surface);
 
 /* A face: entity 144, 143 or 510. */
 typedef enum iges_trim {
@@ -82,11 +105,17 @@ typedef struct iges_face {
     size_t count; /* curves of all loops in parameter space, in their order */
     size_t room;
     nurbs_curve **curve;
+    size_t *end; /* [loops] of each loop's curves */
 } iges_face;
 
 int iges_is_face(int type);
 /* Base surface and curves of a face; nothing to free after a failure. */
 nurbs_status iges_face_read(iges_file *file, size_t entity, iges_face *face);
 void iges_face_free(iges_face *face);
+
+/* Base surface of a face, and the bounding curves of face or plane 108 as curves in space, each in
+ * the direction of its loop. NURBS_ERROR_GEOMETRY: it has none there. The caller frees the face. */
+nurbs_status iges_face_base(const iges_file *file, size_t entity, size_t *surface);
+nurbs_status iges_face_space(iges_file *file, size_t entity, cad_face *f);
 
 #endif

@@ -1,14 +1,17 @@
 #include "core/error.h"
+#include "io/curve_join.h"
+#include "io/form.h"
 #include "io/iges.h"
 #include "io/iges_spline.h"
 
+#include <nurbs/io.h>
 #include <nurbs/modify.h>
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_INDEX = 1000000 };
+enum { MAX_INDEX = 1000000, MAX_DEPTH = 16, MAX_PARTS = 100000 };
 
 static nurbs_status refuse(const iges_file *file, size_t entity, const char *what)
 {
@@ -168,6 +171,87 @@ static nurbs_status read_arc(const iges_file *file, size_t entity, double scale,
     return create_curve(2, n, knots, net, matrix, shift, curve);
 }
 
+/* Conics, polylines and parametric splines are made in their own space and then moved. */
+static nurbs_status read_other(const iges_file *file, size_t entity, double scale,
+                               const double matrix[9], const double shift[3], nurbs_curve **curve)
+{
+    nurbs_curve *own = NULL;
+    nurbs_status status;
+    switch (file->entity[entity].type) {
+    case 104:
+        status = iges_conic(file, entity, scale, &own);
+        break;
+    case 106:
+        status = iges_polyline(file, entity, scale, &own);
+        break;
+    default:
+        status = iges_parametric(file, entity, scale, &own);
+    }
+    if (status == NURBS_OK)
+        status = curve_transform(own, matrix, shift, curve);
+    nurbs_curve_free(own);
+    return status;
+}
+
+/* The parts of a composite 102, each again possibly composite. */
+static nurbs_status read_parts(iges_file *file, size_t entity, double scale, int depth,
+                               size_t *count, size_t *room, nurbs_curve ***parts)
+{
+    long n = 0;
+    size_t part;
+    if (file->entity[entity].type != 102) {
+        if (*count == *room) {
+            size_t more = *room ? 2 * *room : 8;
+            nurbs_curve **larger = realloc(*parts, more * sizeof *larger);
+            if (!larger)
+                return nurbs_fail(NURBS_ERROR_MEMORY, "%s: no memory for %zu curves", file->path,
+                                  more);
+            *parts = larger;
+            *room = more;
+        }
+        nurbs_status status = iges_curve(file, entity, scale, &(*parts)[*count]);
+        *count += status == NURBS_OK;
+        return status;
+    }
+    nurbs_status status = iges_integer(file, entity, 0, 0, &n);
+    if (status == NURBS_OK && (depth == MAX_DEPTH || *count > MAX_PARTS))
+        return refuse(file, entity, "composites inside each other without end");
+    for (long k = 0; k < n && status == NURBS_OK; k++) {
+        status = iges_pointer(file, entity, (size_t)k + 1, &part);
+        if (status == NURBS_OK)
+            status = read_parts(file, part, scale, depth + 1, count, room, parts);
+    }
+    return status;
+}
+
+nurbs_status iges_curve_parts(iges_file *file, size_t entity, size_t *count, nurbs_curve ***parts)
+{
+    size_t room = 0;
+    *count = 0;
+    *parts = NULL;
+    nurbs_status status = read_parts(file, entity, file->metres, 0, count, &room, parts);
+    if (status != NURBS_OK) {
+        nurbs_curves_free(*count, *parts);
+        *count = 0;
+        *parts = NULL;
+    }
+    return status;
+}
+
+nurbs_status iges_curve_joined(iges_file *file, size_t entity, nurbs_curve **curve)
+{
+    size_t count;
+    nurbs_curve **parts;
+    *curve = NULL;
+    nurbs_status status = iges_curve_parts(file, entity, &count, &parts);
+    if (status == NURBS_OK && count == 1)
+        status = nurbs_curve_copy(parts[0], curve);
+    else if (status == NURBS_OK)
+        status = curves_join(count, (const nurbs_curve *const *)parts, curve);
+    nurbs_curves_free(count, parts);
+    return status;
+}
+
 nurbs_status iges_curve(iges_file *file, size_t entity, double scale, nurbs_curve **curve)
 {
     double matrix[9], shift[3];
@@ -185,8 +269,13 @@ nurbs_status iges_curve(iges_file *file, size_t entity, double scale, nurbs_curv
     case 126:
         status = read_spline(file, entity, scale, matrix, shift, curve);
         break;
+    case 104:
+    case 106:
+    case 112:
+        status = read_other(file, entity, scale, matrix, shift, curve);
+        break;
     default:
-        status = refuse(file, entity, "is not a curve of type 100, 110 or 126");
+        status = refuse(file, entity, "is not a curve of type 100, 104, 106, 110, 112 or 126");
     }
     if (status != NURBS_OK) {
         nurbs_curve_free(*curve);

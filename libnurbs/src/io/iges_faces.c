@@ -2,6 +2,7 @@
 #include "io/iges.h"
 
 #include <nurbs/io.h>
+#include <nurbs/modify.h>
 
 #include <math.h>
 #include <stdlib.h>
@@ -175,16 +176,28 @@ static nurbs_status read_face(iges_file *file, size_t entity, iges_face *face)
     nurbs_status status =
         iges_pointer(file, entity, file->entity[entity].type == 143 ? 1 : 0, &face->surface);
     if (status == NURBS_OK && file->entity[face->surface].type != 128)
-        return NURBS_OK;
+        return NURBS_OK; /* iges_face_space() */
     if (status == NURBS_OK)
         status = face_loops(file, entity, &first, &face->loops);
     if (status == NURBS_OK && face->loops == 0)
         face->trim = IGES_WHOLE;
+    if (status == NURBS_OK && face->loops > iges_parameters(file, entity))
+        status =
+            nurbs_fail(NURBS_ERROR_FORMAT, "%s: face D%zu: %zu loops, more than its parameters",
+                       file->path, iges_number(entity), face->loops);
+    if (status == NURBS_OK) {
+        face->end = calloc(face->loops + 1, sizeof *face->end);
+        if (!face->end)
+            status = nurbs_fail(NURBS_ERROR_MEMORY, "%s: no memory for %zu loops", file->path,
+                                face->loops);
+    }
     for (size_t k = 0; k < face->loops && status == NURBS_OK; k++) {
         size_t loop;
         status = iges_pointer(file, entity, first + k, &loop);
         if (status == NURBS_OK)
             status = read_loop(file, loop, face);
+        if (status == NURBS_OK)
+            face->end[k] = face->count;
     }
     if (status != NURBS_OK || face->count == 0)
         return status;
@@ -211,5 +224,154 @@ nurbs_status iges_face_read(iges_file *file, size_t entity, iges_face *face)
 void iges_face_free(iges_face *face)
 {
     nurbs_curves_free(face->count, face->curve);
+    free(face->end);
     *face = (iges_face){0};
+}
+
+/* Appends the parts of a curve in space to the face's last loop, in reverse on demand. */
+static nurbs_status add_space(iges_file *file, size_t curve, bool reversed, cad_face *f)
+{
+    size_t count;
+    nurbs_curve **parts;
+    nurbs_status status = iges_curve_parts(file, curve, &count, &parts);
+    for (size_t k = 0; k < count; k++) {
+        size_t at = reversed ? count - 1 - k : k;
+        nurbs_curve *turned = parts[at];
+        if (reversed && status == NURBS_OK) {
+            status = nurbs_curve_reverse(parts[at], &turned);
+            nurbs_curve_free(parts[at]);
+        }
+        if (status == NURBS_OK)
+            status = face_add_curve(f, turned);
+        else if (!reversed)
+            nurbs_curve_free(turned);
+    }
+    free(parts);
+    return status;
+}
+
+/* The curve in space of a 142. */
+static nurbs_status space_142(iges_file *file, size_t entity, cad_face *f)
+{
+    long given;
+    size_t curve;
+    nurbs_status status = iges_integer(file, entity, 3, 0, &given);
+    if (status == NURBS_OK && given == 0)
+        return nurbs_fail(NURBS_ERROR_GEOMETRY, "its boundary D%zu has no curve in space",
+                          iges_number(entity));
+    if (status == NURBS_OK)
+        status = iges_pointer(file, entity, 3, &curve);
+    return status == NURBS_OK ? add_space(file, curve, false, f) : status;
+}
+
+static nurbs_status space_141(iges_file *file, size_t entity, cad_face *f)
+{
+    long n;
+    size_t at = 4;
+    nurbs_status status = iges_integer(file, entity, 3, 0, &n);
+    for (long e = 0; e < n && status == NURBS_OK; e++) {
+        long count, sense;
+        size_t curve;
+        status = iges_pointer(file, entity, at, &curve);
+        if (status == NURBS_OK)
+            status = iges_integer(file, entity, at + 1, 1, &sense);
+        if (status == NURBS_OK)
+            status = iges_integer(file, entity, at + 2, 0, &count);
+        if (status == NURBS_OK && (count < 0 || (size_t)count > iges_parameters(file, entity)))
+            return nurbs_fail(NURBS_ERROR_FORMAT, "%s: boundary D%zu: %ld curves", file->path,
+                              iges_number(entity), count);
+        if (status == NURBS_OK)
+            status = add_space(file, curve, sense == 2, f);
+        at += 3 + (size_t)(status == NURBS_OK ? count : 0);
+    }
+    return status;
+}
+
+/* Edge `number` (from 1) of an edge list 504: curve, start list and index, end list and index. */
+static nurbs_status edge_curve(const iges_file *file, size_t list, long number, size_t *curve)
+{
+    long n;
+    nurbs_status status = iges_integer(file, list, 0, 0, &n);
+    if (status == NURBS_OK && (file->entity[list].type != 504 || number < 1 || number > n))
+        return nurbs_fail(NURBS_ERROR_FORMAT, "%s: D%zu has no edge %ld", file->path,
+                          iges_number(list), number);
+    return status == NURBS_OK ? iges_pointer(file, list, 1 + 5 * ((size_t)number - 1), curve)
+                              : status;
+}
+
+static nurbs_status space_508(iges_file *file, size_t entity, cad_face *f)
+{
+    long n;
+    size_t at = 1;
+    nurbs_status status = iges_integer(file, entity, 0, 0, &n);
+    for (long e = 0; e < n && status == NURBS_OK; e++) {
+        long vertex, number, agrees, count;
+        size_t list, curve;
+        status = iges_integer(file, entity, at, 0, &vertex);
+        if (status == NURBS_OK)
+            status = iges_pointer(file, entity, at + 1, &list);
+        if (status == NURBS_OK)
+            status = iges_integer(file, entity, at + 2, 0, &number);
+        if (status == NURBS_OK)
+            status = iges_integer(file, entity, at + 3, 1, &agrees);
+        if (status == NURBS_OK)
+            status = iges_integer(file, entity, at + 4, 0, &count);
+        if (status == NURBS_OK && (count < 0 || (size_t)count > iges_parameters(file, entity)))
+            return nurbs_fail(NURBS_ERROR_FORMAT, "%s: loop D%zu: %ld curves", file->path,
+                              iges_number(entity), count);
+        if (status == NURBS_OK && vertex == 0) {
+            status = edge_curve(file, list, number, &curve);
+            if (status == NURBS_OK)
+                status = add_space(file, curve, agrees == 0, f);
+        }
+        at += 5 + 2 * (size_t)(status == NURBS_OK ? count : 0);
+    }
+    return status;
+}
+
+static nurbs_status space_loop(iges_file *file, size_t entity, cad_face *f)
+{
+    nurbs_status status = face_add_loop(f);
+    if (status != NURBS_OK)
+        return status;
+    switch (file->entity[entity].type) {
+    case 142:
+        return space_142(file, entity, f);
+    case 141:
+        return space_141(file, entity, f);
+    case 508:
+        return space_508(file, entity, f);
+    default:
+        return add_space(file, entity, false, f);
+    }
+}
+
+nurbs_status iges_face_base(const iges_file *file, size_t entity, size_t *surface)
+{
+    return iges_pointer(file, entity, file->entity[entity].type == 143 ? 1 : 0, surface);
+}
+
+nurbs_status iges_face_space(iges_file *file, size_t entity, cad_face *f)
+{
+    size_t base = entity, first = 4, count = 1;
+    nurbs_status status = NURBS_OK;
+    *f = (cad_face){.reversed = false};
+    if (iges_is_face(file->entity[entity].type)) {
+        status = iges_face_base(file, entity, &base);
+        if (status == NURBS_OK)
+            status = face_loops(file, entity, &first, &count);
+    }
+    if (status == NURBS_OK && count > iges_parameters(file, entity))
+        status =
+            nurbs_fail(NURBS_ERROR_FORMAT, "%s: face D%zu: %zu loops, more than its parameters",
+                       file->path, iges_number(entity), count);
+    if (status == NURBS_OK)
+        status = iges_form(file, base, &f->form);
+    for (size_t k = 0; k < count && status == NURBS_OK; k++) {
+        size_t loop;
+        status = iges_pointer(file, entity, first + k, &loop);
+        if (status == NURBS_OK)
+            status = space_loop(file, loop, f);
+    }
+    return status;
 }

@@ -320,6 +320,7 @@ static nurbs_status parse_entity(iges_file *file, const char *lines, size_t inde
     entity->first_line = (size_t)first - 1;
     entity->transformation = transformation ? (size_t)transformation / 2 + 1 : 0;
     entity->dependent = (int)(status_number / 10000 % 100);
+    entity->blank = status_number / 1000000 % 100 == 1;
     size_t last = lines_used > 0 ? entity->first_line + (size_t)lines_used : file->parameter_lines;
     if (last > file->parameter_lines)
         last = file->parameter_lines;

@@ -28,11 +28,6 @@ typedef struct division {
     nurbs_patches *patches;
 } division;
 
-static void free_loop(trim_loop *loop)
-{
-    trim_loop_free(loop);
-}
-
 static nurbs_status insert_part(trim_loop *loop, size_t at, loop_part part)
 {
     if (loop->count == loop->room) {
@@ -134,7 +129,13 @@ static void coons(const trim_loop *loop, double s, double t, double uv[2])
                 s * ((1 - t) * corner[1][d] + t * corner[2][d]);
 }
 
-/* Smallest over mean signed area of the cells; negative where the map folds. */
+static double cell_turn(const double a[2], const double b[2], const double c[2])
+{
+    return 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+}
+
+/* Smallest signed triangle at a corner of a cell over the mean cell; negative where the map folds.
+ * At the corners of the map itself the cell as a whole counts: there an angle may be straight. */
 static double quality(const trim_loop *loop)
 {
     double uv[GRID + 1][GRID + 1][2], least = INFINITY, sum = 0;
@@ -144,11 +145,16 @@ static double quality(const trim_loop *loop)
     for (int i = 0; i < GRID; i++)
         for (int j = 0; j < GRID; j++) {
             const double *a = uv[i][j], *b = uv[i + 1][j], *c = uv[i + 1][j + 1], *d = uv[i][j + 1];
-            double area = 0.5 * ((c[0] - a[0]) * (d[1] - b[1]) - (c[1] - a[1]) * (d[0] - b[0]));
-            least = fmin(least, area);
+            double area = cell_turn(a, b, c) + cell_turn(a, c, d);
             sum += area;
+            if ((i == 0 || i == GRID - 1) && (j == 0 || j == GRID - 1)) {
+                least = fmin(least, 0.5 * area);
+                continue;
+            }
+            least = fmin(least, fmin(fmin(cell_turn(a, b, d), cell_turn(b, c, a)),
+                                     fmin(cell_turn(c, d, b), cell_turn(d, a, c))));
         }
-    return sum > 0 ? least * GRID * GRID / sum : -1;
+    return sum > 0 ? 2 * least * GRID * GRID / sum : -1;
 }
 
 typedef struct choice {
@@ -195,7 +201,8 @@ static nurbs_status take_whole(division *work, trim_loop *loop, bool *done)
     for (int k = 0; k < MOST_TRIES; k++)
         best[k] = (choice){.quality = least_quality};
     for (size_t k = 0; k < loop->count; k++) {
-        corner[k] = trim_loop_turns(&loop->part[k]);
+        /* A map folds at a corner of more than a straight angle: those stay inside a side. */
+        corner[k] = trim_loop_turns(&loop->part[k]) && loop->part[k].turn > 0;
         n += corner[k];
     }
     if (n > MOST_CORNERS)
@@ -268,11 +275,12 @@ static double angle_between(const double a[2], const double b[2], const double c
     return angle < 0 ? angle + turn : angle;
 }
 
-/* Whether a chord from vertex i to j leaves into the inside of a counterclockwise polygon, well away
- * from both edges there. */
+/* Whether a chord from vertex i to j leaves into the inside of a counterclockwise polygon, well
+ * away from both edges there. */
 static bool leaves_inside(size_t n, const double *xy, size_t i, size_t j)
 {
-    const double *a = xy + 2 * i, *next = xy + 2 * ((i + 1) % n), *before = xy + 2 * ((i + n - 1) % n);
+    const double *a = xy + 2 * i, *next = xy + 2 * ((i + 1) % n),
+                 *before = xy + 2 * ((i + n - 1) % n);
     double inside = angle_between(a, next, before), chord = angle_between(a, next, xy + 2 * j),
            least = fmin(least_angle, 0.25 * inside);
     return chord > least && chord < inside - least;
@@ -353,8 +361,8 @@ static nurbs_status divide(division *work, trim_loop *loop, int depth)
         status = cut_off(loop, j, i, &piece[1]);
     for (int k = 0; k < 2 && status == NURBS_OK; k++)
         status = divide(work, &piece[k], depth + 1);
-    free_loop(&piece[0]);
-    free_loop(&piece[1]);
+    trim_loop_free(&piece[0]);
+    trim_loop_free(&piece[1]);
     return status;
 }
 
@@ -455,9 +463,8 @@ static nurbs_status check(const nurbs_surface *surface, size_t loops, const size
 }
 
 nurbs_status nurbs_surface_untrim_parts(const nurbs_surface *surface, size_t loops,
-                                        const size_t *count,
-                                        const nurbs_curve *const *const *loop, double tolerance,
-                                        nurbs_patches *patches, double *deviation)
+                                        const size_t *count, const nurbs_curve *const *const *loop,
+                                        double tolerance, nurbs_patches *patches, double *deviation)
 {
     nurbs_status status = check(surface, loops, count, loop, tolerance, patches);
     if (status != NURBS_OK)
