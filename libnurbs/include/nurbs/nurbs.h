@@ -15,6 +15,7 @@
 #include <nurbs/fit.h>
 #include <nurbs/geometry.h>
 #include <nurbs/grid.h>
+#include <nurbs/hull.h>
 #include <nurbs/integrals.h>
 #include <nurbs/invert.h>
 #include <nurbs/io.h>

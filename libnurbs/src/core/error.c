@@ -2,6 +2,7 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 static _Thread_local char last_error[512];
 
@@ -34,4 +35,11 @@ nurbs_status nurbs_fail(nurbs_status code, const char *format, ...)
     vsnprintf(last_error, sizeof last_error, format, args);
     va_end(args);
     return code;
+}
+
+nurbs_status nurbs_fail_in(nurbs_status code, const char *where)
+{
+    char sentence[sizeof last_error];
+    memcpy(sentence, last_error, sizeof sentence);
+    return nurbs_fail(code, "%s: %s", where, sentence);
 }

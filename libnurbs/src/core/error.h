@@ -8,4 +8,8 @@
 __attribute__((format(printf, 2, 3))) nurbs_status nurbs_fail(nurbs_status code, const char *format,
                                                               ...);
 
+/* The last failure again, with the object that it concerns before its sentence: "where: sentence".
+ */
+nurbs_status nurbs_fail_in(nurbs_status code, const char *where);
+
 #endif

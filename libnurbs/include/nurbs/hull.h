@@ -1,0 +1,108 @@
+/**
+ * @file hull.h
+ * A hull from a file to what a solver or an optimiser takes: placed, cut at the still water, made
+ * light within a certified bound, checked, with its hydrostatics; and the same hull after points of
+ * its design grid have moved.
+ *
+ * Axes of the result: x forward, y to port, z up, z = 0 the still water. Everything that was done
+ * to the file's surfaces is told in sentences: nurbs_hull_step().
+ */
+#ifndef NURBS_HULL_H
+#define NURBS_HULL_H
+
+#include <nurbs/grid.h>
+#include <nurbs/integrals.h>
+#include <nurbs/patches.h>
+
+#include <stdbool.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct nurbs_hull nurbs_hull;
+
+typedef struct nurbs_hull_options {
+    double level;  /**< z of the still water in the file's axes, m; 0 */
+    double draft;  /**< keel draft amidships that sets the level instead, m; NAN: not given */
+    double length; /**< reference length, m; NAN: the file's, else the waterline's */
+    double cut;    /**< how far a cut surface may lie from the file's, over the extent in x; 1e-5 */
+    double
+        simplify;   /**< tolerance of knot removal, over the extent in x (a rebuilt hull: over the
+                         reference length); 0: none; NAN: 1e-4 for surfaces that are cut, else none */
+    double sinkage; /**< m, positive down; 0 */
+    double trim;    /**< radians, positive bow up, about x = pivot in the still water; 0 */
+    double pivot;   /**< m; 0 */
+    bool unbounded; /**< no water surface: the body is moved below z = 0 and not cut; false */
+} nurbs_hull_options;
+
+NURBS_API void nurbs_hull_options_init(nurbs_hull_options *options);
+
+/** Reads a hull: any file that nurbs_patches_read() takes. options NULL: defaults.
+ * Errors: those of the reader; NURBS_ERROR_GEOMETRY, with file, patch and place: nothing below the
+ * still water, a section that crosses it more than once, patches that enclose no volume. */
+NURBS_API nurbs_status nurbs_hull_read(const char *path, const nurbs_hull_options *options,
+                                       nurbs_hull **hull);
+
+/** The same from surfaces; copies them, with their length and design grid. */
+NURBS_API nurbs_status nurbs_hull_create(const nurbs_patches *patches,
+                                         const nurbs_hull_options *options, nurbs_hull **hull);
+NURBS_API void nurbs_hull_free(nurbs_hull *hull);
+
+/** Creates the design grid of a hull of one patch: points on it that a shape family may move, the
+ * sections in u. rows, columns: as many as the file keeps for its own design grid, or 0, give that
+ * grid back; any other number gives parameters spaced like the Greville abscissae, so that they
+ * crowd where the surface has detail, with one on every kink.
+ * Errors: NURBS_ERROR_ARGUMENT: 0 though the file keeps none; NURBS_ERROR_GEOMETRY: several
+ * patches, or that many lines cannot be laid over the knots. */
+NURBS_API nurbs_status nurbs_hull_design_grid(const nurbs_hull *hull, size_t rows, size_t columns,
+                                              nurbs_grid **grid);
+
+/** Creates the hull through the points of a grid: skinned (nurbs_skin() with its defaults), cut at
+ * z = 0 within a tenth of the tolerance, and lightened by knot removal within the tolerance, edges
+ * kept: 1e-4 of the parent's length or what the parent's options.simplify says. Length and options
+ * are the parent's.
+ * @param grid  the moved design grid, z = 0 the still water
+ * Errors: the sentence begins with the stage that failed: "skin: ", "waterline: ", "simplify: ",
+ * "hydrostatics: ". */
+NURBS_API nurbs_status nurbs_hull_rebuild(const nurbs_hull *parent, const nurbs_grid *grid,
+                                          nurbs_hull **hull);
+
+/** Surfaces, borrowed. Full: as they were read and placed, above and below the water. Wetted: the
+ * part below. Light: the same with redundant knots removed, what a solver takes. Of a rebuilt hull
+ * the full surface is the skinned one. */
+NURBS_API const nurbs_patches *nurbs_hull_full(const nurbs_hull *hull);
+NURBS_API const nurbs_patches *nurbs_hull_wetted(const nurbs_hull *hull);
+NURBS_API const nurbs_patches *nurbs_hull_light(const nurbs_hull *hull);
+
+/** Proven bound of the distance of light from wetted, m; 0 if nothing was simplified. */
+NURBS_API double nurbs_hull_bound(const nurbs_hull *hull);
+/** z of the still water in the axes of the file, m. */
+NURBS_API double nurbs_hull_level(const nurbs_hull *hull);
+/** Reference length, m: the option's, the file's, that of the waterline, or of the body. */
+NURBS_API double nurbs_hull_length(const nurbs_hull *hull);
+/** Length between perpendiculars that the file keeps, m; 0: none. */
+NURBS_API double nurbs_hull_lpp(const nurbs_hull *hull);
+/** Whether the surfaces cover y >= 0 only and the other side is their mirror image. */
+NURBS_API bool nurbs_hull_is_half(const nurbs_hull *hull);
+/** Whether some surface crossed the still water and was cut. */
+NURBS_API bool nurbs_hull_is_cut(const nurbs_hull *hull);
+/** Whether the hull has a waterline; false: submerged, or without a water surface. */
+NURBS_API bool nurbs_hull_has_waterline(const nurbs_hull *hull);
+
+/** Of the wetted surfaces of both sides, z = 0 the still water. Borrowed. */
+NURBS_API const nurbs_hydrostatics *nurbs_hull_hydrostatics(const nurbs_hull *hull);
+
+/** Sentences: 0 says how the water divides the hull and what simplification left; each further one
+ * is something that was done to the file's surfaces. Borrowed; NULL from the first number on that
+ * has none. */
+NURBS_API const char *nurbs_hull_step(const nurbs_hull *hull, size_t number);
+
+/** Writes the full surfaces with note (NULL: none), length and design grid, by extension. */
+NURBS_API nurbs_status nurbs_hull_write(const nurbs_hull *hull, const char *note, const char *path);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,174 @@
+/* The design grid of a hull, and the hull through a moved grid. */
+#include "core/error.h"
+#include "hull/hull.h"
+
+#include <nurbs/fit.h>
+#include <nurbs/section.h>
+#include <nurbs/simplify.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The cut at the waterline is this much finer than the simplification, so that it never matters. */
+static const double cut_share = 0.1;
+static const double default_tolerance = 1e-4; /* of the length */
+
+static double greville(int degree, const double *knots, size_t i)
+{
+    double sum = 0;
+    for (int k = 1; k <= degree; k++)
+        sum += knots[i + (size_t)k];
+    return sum / degree;
+}
+
+/* Moves the nearest inner parameter onto each interior knot of multiplicity >= degree. */
+static void snap_to_kinks(int degree, size_t size, const double *knots, size_t n, double *out)
+{
+    size_t p = (size_t)degree;
+    for (size_t i = p + 1; i + p <= size; i++) {
+        if (knots[i] != knots[i + p - 1] || knots[i] == knots[i - 1] || knots[i] == knots[size])
+            continue;
+        size_t best = 1;
+        for (size_t k = 1; k + 1 < n; k++)
+            if (fabs(out[k] - knots[i]) < fabs(out[best] - knots[i]))
+                best = k;
+        out[best] = knots[i];
+    }
+}
+
+/* n parameters of one direction, spaced like its Greville abscissae; false: two coincide. */
+static bool spread_parameters(const nurbs_surface *surface, int axis, size_t n, double *out)
+{
+    int degree = nurbs_surface_degree(surface, axis);
+    size_t size = nurbs_surface_size(surface, axis);
+    const double *knots = nurbs_surface_knots(surface, axis);
+    for (size_t k = 0; k < n; k++) {
+        double position = (double)(size - 1) * (double)k / (double)(n - 1);
+        size_t i = (size_t)position;
+        if (i > size - 2)
+            i = size - 2;
+        double share = position - (double)i;
+        out[k] = (1 - share) * greville(degree, knots, i) + share * greville(degree, knots, i + 1);
+    }
+    if (degree > 1)
+        snap_to_kinks(degree, size, knots, n, out);
+    for (size_t k = 1; k < n; k++)
+        if (!(out[k] > out[k - 1]))
+            return false;
+    return true;
+}
+
+/* The parameters that the file keeps for its own design grid, or such as suit the knots. */
+static nurbs_status choose_parameters(const nurbs_patches *full, int axis, size_t n, double *out)
+{
+    const double *kept;
+    if (n == nurbs_patches_parameters(full, 0, axis, &kept)) {
+        memcpy(out, kept, n * sizeof *out);
+        return NURBS_OK;
+    }
+    if (!spread_parameters(nurbs_patches_get(full, 0), axis, n, out))
+        return nurbs_fail(NURBS_ERROR_GEOMETRY,
+                          "%zu grid lines cannot be laid over the knots in direction %d", n, axis);
+    return NURBS_OK;
+}
+
+nurbs_status nurbs_hull_design_grid(const nurbs_hull *hull, size_t rows, size_t columns,
+                                    nurbs_grid **grid)
+{
+    size_t n[2] = {rows, columns};
+    const double *kept;
+    if (!hull || !grid)
+        return nurbs_fail(NURBS_ERROR_ARGUMENT, "hull or grid is NULL");
+    *grid = NULL;
+    if (nurbs_patches_count(hull->full) != 1)
+        return nurbs_fail(NURBS_ERROR_GEOMETRY,
+                          "%zu patches, expected one that covers the side of the hull",
+                          nurbs_patches_count(hull->full));
+    for (int a = 0; a < 2; a++) {
+        if (n[a] == 0)
+            n[a] = nurbs_patches_parameters(hull->full, 0, a, &kept);
+        if (n[a] < 2)
+            return nurbs_fail(NURBS_ERROR_ARGUMENT,
+                              n[a] ? "a design grid of %zu %s, expected at least 2"
+                                   : "%zu %s, and the file keeps no design grid of its own",
+                              n[a], a ? "columns" : "rows");
+    }
+    double *u = malloc((n[0] + n[1]) * sizeof *u);
+    if (!u)
+        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu parameters", n[0] + n[1]);
+    nurbs_status status = choose_parameters(hull->full, 0, n[0], u);
+    if (!status)
+        status = choose_parameters(hull->full, 1, n[1], u + n[0]);
+    if (!status)
+        status = nurbs_grid_sample(nurbs_patches_get(hull->full, 0), n[0], u, n[1], u + n[0], grid);
+    free(u);
+    return status;
+}
+
+static nurbs_status add_to(nurbs_patches **patches, const nurbs_surface *surface)
+{
+    nurbs_status status = nurbs_patches_create(patches);
+    return status ? status : nurbs_patches_add(*patches, surface);
+}
+
+/* The sentence begins with the stage. */
+static nurbs_status stage(nurbs_status status, const char *name)
+{
+    return status ? nurbs_fail_in(status, name) : NURBS_OK;
+}
+
+static nurbs_status build(nurbs_hull *hull, const nurbs_grid *grid)
+{
+    nurbs_surface *full = NULL, *wetted = NULL, *light = NULL;
+    double share = isnan(hull->options.simplify) ? default_tolerance : hull->options.simplify;
+    double distance = share * hull->length;
+    nurbs_status status = stage(nurbs_skin(grid, NULL, &full), "skin");
+    if (!status)
+        status = add_to(&hull->full, full);
+    if (!status)
+        status = stage(nurbs_surface_wetted(full, 0, cut_share * distance, &wetted), "waterline");
+    if (!status)
+        status = add_to(&hull->wetted, wetted);
+    if (!status)
+        status = stage(nurbs_surface_simplify(wetted, distance,
+                                              NURBS_SIMPLIFY_KEEP_EDGES | NURBS_SIMPLIFY_THRIFTY,
+                                              &light, &hull->bound),
+                       "simplify");
+    if (!status)
+        status = add_to(&hull->light, light);
+    if (!status)
+        status = stage(hull_hydrostatics(hull->wetted, true, &hull->hydrostatics), "hydrostatics");
+    if (!status)
+        status = hull_tell(hull, "cut at z = 0 m, %zu of %zu control points after simplification",
+                           nurbs_surface_size(light, 0) * nurbs_surface_size(light, 1),
+                           nurbs_surface_size(full, 0) * nurbs_surface_size(full, 1));
+    nurbs_surface_free(full);
+    nurbs_surface_free(wetted);
+    nurbs_surface_free(light);
+    return status;
+}
+
+nurbs_status nurbs_hull_rebuild(const nurbs_hull *parent, const nurbs_grid *grid, nurbs_hull **hull)
+{
+    if (!parent || !grid || !hull)
+        return nurbs_fail(NURBS_ERROR_ARGUMENT, "parent, grid or hull is NULL");
+    *hull = NULL;
+    nurbs_hull *result = calloc(1, sizeof *result);
+    if (!result)
+        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for a hull");
+    *result = (nurbs_hull){.options = parent->options,
+                           .extent = parent->extent,
+                           .length = parent->length,
+                           .lpp = parent->lpp,
+                           .half = true,
+                           .cut = true,
+                           .waterline = true};
+    nurbs_status status = build(result, grid);
+    if (status) {
+        nurbs_hull_free(result);
+        return status;
+    }
+    *hull = result;
+    return NURBS_OK;
+}

@@ -1,0 +1,245 @@
+#include "hull/hull.h"
+
+#include "core/error.h"
+
+#include <nurbs/io.h>
+#include <nurbs/topology.h>
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+void nurbs_hull_options_init(nurbs_hull_options *options)
+{
+    if (options)
+        *options = (nurbs_hull_options){.draft = NAN, .length = NAN, .cut = 1e-5, .simplify = NAN};
+}
+
+static nurbs_status check_options(const nurbs_hull_options *o)
+{
+    if (!isfinite(o->level) || !isfinite(o->sinkage) || !isfinite(o->trim) || !isfinite(o->pivot))
+        return nurbs_fail(NURBS_ERROR_ARGUMENT,
+                          "level %g, sinkage %g, trim %g, pivot %g: expected finite numbers",
+                          o->level, o->sinkage, o->trim, o->pivot);
+    if (!isnan(o->length) && !(o->length > 0 && isfinite(o->length)))
+        return nurbs_fail(NURBS_ERROR_ARGUMENT, "length %g m, expected a positive one", o->length);
+    if (!(o->cut > 0) || o->simplify < 0 || isinf(o->simplify))
+        return nurbs_fail(NURBS_ERROR_ARGUMENT,
+                          "tolerances %g of the cut and %g of the simplification, expected "
+                          "positive ones",
+                          o->cut, o->simplify);
+    return NURBS_OK;
+}
+
+nurbs_status hull_tell(nurbs_hull *hull, const char *format, ...)
+{
+    char(*more)[HULL_STEP_SIZE] = realloc(hull->step, (hull->steps + 1) * sizeof *more);
+    if (!more)
+        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu sentences", hull->steps + 1);
+    hull->step = more;
+    va_list args;
+    va_start(args, format);
+    vsnprintf(more[hull->steps++], HULL_STEP_SIZE, format, args);
+    va_end(args);
+    return NURBS_OK;
+}
+
+/* The sentence about the water is told last and read first. */
+static void water_first(nurbs_hull *hull)
+{
+    char last[HULL_STEP_SIZE];
+    memcpy(last, hull->step[hull->steps - 1], sizeof last);
+    memmove(hull->step + 1, hull->step, (hull->steps - 1) * sizeof *hull->step);
+    memcpy(hull->step[0], last, sizeof last);
+}
+
+static void choose_length(nurbs_hull *hull)
+{
+    const nurbs_hydrostatics *h = &hull->hydrostatics;
+    hull->length = hull->options.length;
+    if (isnan(hull->length))
+        hull->length = hull->lpp;
+    if (!(hull->length > 0))
+        hull->length = h->x_fore - h->x_aft;
+}
+
+static nurbs_status make(nurbs_hull *hull)
+{
+    hull_box box;
+    if (nurbs_patches_count(hull->full) == 0)
+        return nurbs_fail(NURBS_ERROR_GEOMETRY, "holds no patches, expected at least one");
+    nurbs_status status = hull_box_of(hull->full, &box);
+    if (status)
+        return status;
+    hull->extent = box.upper[0] - box.lower[0];
+    hull->lpp = nurbs_patches_length(hull->full);
+    status = hull_choose_level(hull, &box);
+    if (!status)
+        status = hull_place(hull);
+    if (!status)
+        status = hull_wet(hull);
+    if (!status)
+        status = hull_measure(hull);
+    if (status)
+        return status;
+    water_first(hull);
+    choose_length(hull);
+    return NURBS_OK;
+}
+
+static nurbs_status start(const nurbs_hull_options *options, nurbs_hull **hull)
+{
+    nurbs_hull *result = calloc(1, sizeof *result);
+    if (!result)
+        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for a hull");
+    if (options)
+        result->options = *options;
+    else
+        nurbs_hull_options_init(&result->options);
+    nurbs_status status = check_options(&result->options);
+    if (status) {
+        nurbs_hull_free(result);
+        return status;
+    }
+    *hull = result;
+    return NURBS_OK;
+}
+
+nurbs_status nurbs_hull_read(const char *path, const nurbs_hull_options *options, nurbs_hull **hull)
+{
+    char report[HULL_STEP_SIZE];
+    if (!path || !hull)
+        return nurbs_fail(NURBS_ERROR_ARGUMENT, "path or hull is NULL");
+    *hull = NULL;
+    nurbs_hull *result = NULL;
+    nurbs_status status = start(options, &result);
+    if (status)
+        return status;
+    status = nurbs_patches_read_reported(path, 0.0, &result->full, report, sizeof report);
+    if (!status && *report)
+        status = hull_tell(result, "%s", report);
+    if (!status) {
+        status = make(result);
+        if (status)
+            status = nurbs_fail_in(status, path);
+    }
+    if (status) {
+        nurbs_hull_free(result);
+        return status;
+    }
+    *hull = result;
+    return NURBS_OK;
+}
+
+nurbs_status nurbs_hull_create(const nurbs_patches *patches, const nurbs_hull_options *options,
+                               nurbs_hull **hull)
+{
+    const double none[3] = {0, 0, 0};
+    if (!patches || !hull)
+        return nurbs_fail(NURBS_ERROR_ARGUMENT, "patches or hull is NULL");
+    *hull = NULL;
+    nurbs_hull *result = NULL;
+    nurbs_status status = start(options, &result);
+    if (status)
+        return status;
+    status = nurbs_patches_transform(patches, NULL, none, &result->full);
+    if (!status)
+        status = make(result);
+    if (status) {
+        nurbs_hull_free(result);
+        return status;
+    }
+    *hull = result;
+    return NURBS_OK;
+}
+
+void nurbs_hull_free(nurbs_hull *hull)
+{
+    if (!hull)
+        return;
+    if (hull->light != hull->wetted)
+        nurbs_patches_free(hull->light);
+    nurbs_patches_free(hull->wetted);
+    nurbs_patches_free(hull->full);
+    free(hull->step);
+    free(hull);
+}
+
+const nurbs_patches *nurbs_hull_full(const nurbs_hull *hull)
+{
+    return hull ? hull->full : NULL;
+}
+
+const nurbs_patches *nurbs_hull_wetted(const nurbs_hull *hull)
+{
+    return hull ? hull->wetted : NULL;
+}
+
+const nurbs_patches *nurbs_hull_light(const nurbs_hull *hull)
+{
+    return hull ? hull->light : NULL;
+}
+
+double nurbs_hull_bound(const nurbs_hull *hull)
+{
+    return hull ? hull->bound : 0;
+}
+
+double nurbs_hull_level(const nurbs_hull *hull)
+{
+    return hull ? hull->level : 0;
+}
+
+double nurbs_hull_length(const nurbs_hull *hull)
+{
+    return hull ? hull->length : 0;
+}
+
+double nurbs_hull_lpp(const nurbs_hull *hull)
+{
+    return hull ? hull->lpp : 0;
+}
+
+bool nurbs_hull_is_half(const nurbs_hull *hull)
+{
+    return hull && hull->half;
+}
+
+bool nurbs_hull_is_cut(const nurbs_hull *hull)
+{
+    return hull && hull->cut;
+}
+
+bool nurbs_hull_has_waterline(const nurbs_hull *hull)
+{
+    return hull && hull->waterline;
+}
+
+const nurbs_hydrostatics *nurbs_hull_hydrostatics(const nurbs_hull *hull)
+{
+    return hull ? &hull->hydrostatics : NULL;
+}
+
+const char *nurbs_hull_step(const nurbs_hull *hull, size_t number)
+{
+    return hull && number < hull->steps ? hull->step[number] : NULL;
+}
+
+nurbs_status nurbs_hull_write(const nurbs_hull *hull, const char *note, const char *path)
+{
+    const double none[3] = {0, 0, 0};
+    nurbs_patches *copy = NULL;
+    if (!hull || !path)
+        return nurbs_fail(NURBS_ERROR_ARGUMENT, "hull or path is NULL");
+    nurbs_status status = nurbs_patches_transform(hull->full, NULL, none, &copy);
+    if (!status)
+        status = nurbs_patches_set_note(copy, note);
+    if (!status)
+        status = nurbs_patches_set_length(copy, hull->length);
+    if (!status)
+        status = nurbs_patches_write(copy, path);
+    nurbs_patches_free(copy);
+    return status;
+}

@@ -1,0 +1,47 @@
+/* The object behind nurbs_hull and the steps that make it. */
+#ifndef NURBS_HULL_OBJECT_H
+#define NURBS_HULL_OBJECT_H
+
+#include <nurbs/hull.h>
+
+/* Relative to the extent in x: a surface that stays within this of a plane lies in it. */
+#define HULL_CLEARANCE 1e-6
+
+enum { HULL_STEP_SIZE = 200 };
+
+struct nurbs_hull {
+    nurbs_hull_options options;
+    nurbs_patches *full, *wetted;
+    nurbs_patches *light; /* may be `wetted` itself */
+    double extent;        /* of the file in x, m */
+    double level, length, lpp, bound;
+    bool half, cut, waterline;
+    nurbs_hydrostatics hydrostatics;
+    size_t steps;
+    char (*step)[HULL_STEP_SIZE];
+};
+
+/* Corners of the box of samples of a surface, or of all patches, which widen the box given. */
+typedef struct hull_box {
+    double lower[3], upper[3];
+} hull_box;
+hull_box hull_box_empty(void);
+nurbs_status hull_box_widen(const nurbs_surface *surface, hull_box *box);
+nurbs_status hull_box_of(const nurbs_patches *patches, hull_box *box);
+
+/* Adds a sentence to the report. */
+__attribute__((format(printf, 2, 3))) nurbs_status hull_tell(nurbs_hull *hull, const char *format,
+                                                             ...);
+
+/* From the file's patches, which `full` holds, to wetted and light ones. */
+nurbs_status hull_choose_level(nurbs_hull *hull, const hull_box *box);
+nurbs_status hull_place(nurbs_hull *hull);
+nurbs_status hull_wet(nurbs_hull *hull);
+
+/* Fills hull->half and hull->hydrostatics from the wetted patches. */
+nurbs_status hull_measure(nurbs_hull *hull);
+
+/* Hydrostatics of patches that all lie at y >= 0 (half), or on both sides of the centre plane. */
+nurbs_status hull_hydrostatics(const nurbs_patches *wetted, bool half, nurbs_hydrostatics *sum);
+
+#endif

@@ -1,0 +1,189 @@
+/* nurbs_hull against closed forms of the Wigley hull and of ellipsoids. */
+#include "check.h"
+#include "hulls.h"
+
+#include <string.h>
+
+static const double L = 10, B = 1, T = 0.625;
+static const double pi = 3.14159265358979323846;
+
+/* A Wigley hull of draft T whose own waterline is at z = top, so that its sides reach above z = 0.
+ */
+static nurbs_patches *raised_wigley(double top)
+{
+    nurbs_surface *surface = NULL, *raised = NULL;
+    nurbs_patches *patches = NULL;
+    const double shift[3] = {0, 0, top};
+    CU_ASSERT_EQUAL_FATAL(nurbs_make_wigley(L, B, T, &surface), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_transform(surface, NULL, shift, &raised), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_patches_create(&patches), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_patches_add(patches, raised), NURBS_OK);
+    nurbs_surface_free(surface);
+    nurbs_surface_free(raised);
+    return patches;
+}
+
+/* Volume of the Wigley hull below the depth h: y = B/2 (1 - (2x/L)^2) (1 - (z/T)^2). */
+static double volume_below(double h)
+{
+    double t = h / T;
+    return 2.0 / 3.0 * L * B * T * (2.0 / 3.0 - t + t * t * t / 3);
+}
+
+static void cuts_at_the_level_and_says_so(void)
+{
+    nurbs_patches *patches = raised_wigley(0.1);
+    nurbs_hull *hull = NULL;
+    CU_ASSERT_EQUAL_FATAL(nurbs_hull_create(patches, NULL, &hull), NURBS_OK);
+    const nurbs_hydrostatics *h = nurbs_hull_hydrostatics(hull);
+    CHECK_CLOSE(h->volume, volume_below(0.1), 1e-4 * h->volume);
+    CHECK_CLOSE(h->beam, B * (1 - 0.1 * 0.1 / T / T), 1e-6);
+    CHECK_CLOSE(h->waterplane_area, 2.0 / 3.0 * L * h->beam, 1e-5);
+    CHECK_CLOSE(nurbs_hull_length(hull), L, 1e-9);
+    CU_ASSERT(nurbs_hull_is_half(hull) && nurbs_hull_is_cut(hull) &&
+              nurbs_hull_has_waterline(hull));
+    CU_ASSERT(nurbs_hull_bound(hull) <= 1e-4 * L);
+    CU_ASSERT_PTR_NOT_NULL_FATAL(nurbs_hull_step(hull, 0));
+    CU_ASSERT_PTR_NOT_NULL(strstr(nurbs_hull_step(hull, 0), "cut at z = 0 m"));
+    CU_ASSERT_PTR_NULL(nurbs_hull_step(hull, 1));
+    nurbs_hull_free(hull);
+    nurbs_patches_free(patches);
+}
+
+static void draft_sets_the_level(void)
+{
+    nurbs_patches *patches = raised_wigley(0.1);
+    nurbs_hull_options options;
+    nurbs_hull *hull = NULL;
+    nurbs_hull_options_init(&options);
+    options.draft = 0.5;
+    options.simplify = 0;
+    CU_ASSERT_EQUAL_FATAL(nurbs_hull_create(patches, &options, &hull), NURBS_OK);
+    CHECK_CLOSE(nurbs_hull_level(hull), 0.5 - (T - 0.1), 1e-6);
+    CHECK_CLOSE(nurbs_hull_hydrostatics(hull)->volume, volume_below(T - 0.5), 1e-4);
+    nurbs_hull_free(hull);
+    nurbs_patches_free(patches);
+}
+
+static void sinkage_and_trim_place_the_hull(void)
+{
+    nurbs_patches *patches = raised_wigley(0.2);
+    nurbs_hull_options options;
+    nurbs_hull *hull = NULL;
+    nurbs_hull_options_init(&options);
+    options.sinkage = 0.1;
+    CU_ASSERT_EQUAL_FATAL(nurbs_hull_create(patches, &options, &hull), NURBS_OK);
+    CHECK_CLOSE(nurbs_hull_hydrostatics(hull)->volume, volume_below(0.1), 1e-3);
+    CU_ASSERT_PTR_NOT_NULL(nurbs_hull_step(hull, 1));
+    nurbs_hull_free(hull);
+    /* To first order a trim adds nothing to the volume of a hull that is symmetric about x = 0. */
+    options.trim = 1e-3;
+    CU_ASSERT_EQUAL_FATAL(nurbs_hull_create(patches, &options, &hull), NURBS_OK);
+    CHECK_CLOSE(nurbs_hull_hydrostatics(hull)->volume, volume_below(0.1), 1e-3);
+    CU_ASSERT(nurbs_hull_hydrostatics(hull)->centroid[0] < -0.005); /* bow up: aft */
+    nurbs_hull_free(hull);
+    nurbs_patches_free(patches);
+}
+
+/* Both sides, in two patches. */
+static void whole_body_counts_each_side_once(void)
+{
+    nurbs_surface *half = NULL;
+    nurbs_patches *patches = NULL, *both = NULL;
+    nurbs_hull *hull = NULL;
+    CU_ASSERT_EQUAL_FATAL(nurbs_make_ellipsoid(4, 2, 1, 1, &half), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_patches_create(&patches), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_patches_add(patches, half), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_patches_mirror(patches, 1, &both), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_hull_create(both, NULL, &hull), NURBS_OK);
+    CU_ASSERT(!nurbs_hull_is_half(hull) && !nurbs_hull_has_waterline(hull));
+    CHECK_CLOSE(nurbs_hull_hydrostatics(hull)->volume, pi / 6 * 4 * 2 * 1, 1e-9);
+    CHECK_CLOSE(nurbs_hull_hydrostatics(hull)->beam, 2, 1e-9);
+    nurbs_hull_free(hull);
+    nurbs_surface_free(half);
+    nurbs_patches_free(patches);
+    nurbs_patches_free(both);
+}
+
+static void rebuilds_from_its_design_grid(void)
+{
+    nurbs_patches *patches = raised_wigley(0.1);
+    nurbs_hull *parent = NULL, *hull = NULL;
+    nurbs_grid *grid = NULL;
+    CU_ASSERT_EQUAL_FATAL(nurbs_hull_create(patches, NULL, &parent), NURBS_OK);
+    CU_ASSERT_EQUAL(nurbs_hull_design_grid(parent, 0, 0, &grid), NURBS_ERROR_ARGUMENT);
+    CU_ASSERT_EQUAL_FATAL(nurbs_hull_design_grid(parent, 41, 17, &grid), NURBS_OK);
+    CU_ASSERT_EQUAL(nurbs_grid_rows(grid), 41);
+    CU_ASSERT_EQUAL_FATAL(nurbs_hull_rebuild(parent, grid, &hull), NURBS_OK);
+    double volume = nurbs_hull_hydrostatics(hull)->volume;
+    CHECK_CLOSE(volume, volume_below(0.1), 1e-4 * volume);
+    CU_ASSERT(nurbs_hull_bound(hull) > 0 && nurbs_hull_bound(hull) <= 1e-4 * L);
+    CU_ASSERT_EQUAL(nurbs_patches_count(nurbs_hull_light(hull)), 1);
+    nurbs_hull_free(hull);
+    double *points = nurbs_grid_edit(grid);
+    for (size_t k = 0; k < 41 * 17; k++)
+        points[3 * k + 1] *= 1.1;
+    CU_ASSERT_EQUAL_FATAL(nurbs_hull_rebuild(parent, grid, &hull), NURBS_OK);
+    CHECK_CLOSE(nurbs_hull_hydrostatics(hull)->volume, 1.1 * volume, 1e-5 * volume);
+    nurbs_hull_free(hull);
+    for (size_t k = 0; k < 41 * 17; k++)
+        points[3 * k + 2] += 5;
+    CU_ASSERT_EQUAL(nurbs_hull_rebuild(parent, grid, &hull), NURBS_ERROR_GEOMETRY);
+    CU_ASSERT_EQUAL(strncmp(nurbs_last_error(), "waterline: ", 11), 0);
+    CU_ASSERT_PTR_NULL(hull);
+    nurbs_grid_free(grid);
+    nurbs_hull_free(parent);
+    nurbs_patches_free(patches);
+}
+
+static void keeps_the_design_grid_of_its_file(void)
+{
+    struct hull5415 shipped;
+    nurbs_hull *hull = NULL, *again = NULL;
+    nurbs_grid *grid = NULL;
+    CU_ASSERT_FATAL(hull5415_load(&shipped));
+    CU_ASSERT_EQUAL_FATAL(nurbs_hull_create(shipped.file, NULL, &hull), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_hull_design_grid(hull, 0, 0, &grid), NURBS_OK);
+    CU_ASSERT_EQUAL(nurbs_grid_rows(grid), 90);
+    CU_ASSERT_EQUAL(memcmp(nurbs_grid_points(grid), nurbs_grid_points(shipped.grid),
+                           3 * sizeof(double) * 90 * 25),
+                    0);
+    const char *path = scratch_file("hull5415_again.json");
+    CU_ASSERT_EQUAL(nurbs_hull_write(hull, "copied", path), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_hull_read(path, NULL, &again), NURBS_OK);
+    CHECK_CLOSE(nurbs_hull_lpp(again), 5.72, 0);
+    CHECK_CLOSE(nurbs_hull_hydrostatics(again)->volume, nurbs_hull_hydrostatics(hull)->volume, 0);
+    nurbs_grid_free(grid);
+    nurbs_hull_free(hull);
+    nurbs_hull_free(again);
+    hull5415_free(&shipped);
+}
+
+static void refuses_with_the_file_and_the_reason(void)
+{
+    nurbs_hull *hull = NULL;
+    nurbs_patches *patches = raised_wigley(0.7);
+    const char *path = scratch_file("dry_wigley.json");
+    CU_ASSERT_EQUAL(nurbs_patches_write(patches, path), NURBS_OK);
+    CU_ASSERT_EQUAL(nurbs_hull_read(path, NULL, &hull), NURBS_ERROR_GEOMETRY);
+    CU_ASSERT_PTR_NOT_NULL(strstr(nurbs_last_error(), "dry_wigley.json: nothing lies below"));
+    CU_ASSERT_EQUAL(nurbs_hull_read("no_such_file.json", NULL, &hull), NURBS_ERROR_FILE);
+    nurbs_hull_options options;
+    nurbs_hull_options_init(&options);
+    options.length = -1;
+    CU_ASSERT_EQUAL(nurbs_hull_create(patches, &options, &hull), NURBS_ERROR_ARGUMENT);
+    CU_ASSERT_PTR_NULL(hull);
+    nurbs_patches_free(patches);
+}
+
+static const struct check_case cases[] = {
+    {"cuts at the level and says so", cuts_at_the_level_and_says_so},
+    {"draft sets the level", draft_sets_the_level},
+    {"sinkage and trim place the hull", sinkage_and_trim_place_the_hull},
+    {"whole body counts each side once", whole_body_counts_each_side_once},
+    {"rebuilds from its design grid", rebuilds_from_its_design_grid},
+    {"keeps the design grid of its file", keeps_the_design_grid_of_its_file},
+    {"refuses with the file and the reason", refuses_with_the_file_and_the_reason},
+};
+
+CHECK_MAIN("nurbs hull", cases)
