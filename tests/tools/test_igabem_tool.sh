@@ -103,6 +103,13 @@ check "hull file is whole" $?
 check "spectrum file" $?
 tail -1 "$work/p.svg" | grep -q "</svg>"
 check "plot is whole" $?
+"$igabem" solve "$hulls/wigley.json" --fr 0.3 --elements 8,3 --waves "$work/w.pdf" --waves-grid 20,5 \
+  --pressure-plot "$work/cp.svg" > "$work/out" && [ "$(head -c 5 "$work/w.pdf")" = "%PDF-" ] &&
+  grep -q "C<tspan" "$work/cp.svg" && tail -1 "$work/cp.svg" | grep -q "</svg>"
+check "pictures of the waves and the pressure" $?
+expect_code 1 "no pressure" "$igabem" solve "$hulls/wigley.json" --fr 0.3 --elements 8,3 --formulation michell \
+  --pressure-plot "$work/cp.svg"
+expect_code 2 ".svg, .png or .pdf" "$igabem" solve "$hulls/wigley.json" --fr 0.3 --plot "$work/p.txt"
 "$igabem" solve "$hulls/wigley.json" --fr 0.3 --elements 8,2 --formulation neumann-kelvin-stern --stern-length 0 \
   --stern-blend 0 --json > "$work/narrow" &&
   "$igabem" solve "$hulls/wigley.json" --fr 0.3 --elements 8,2 --formulation neumann-kelvin-stern --stern-length 0.3 \

@@ -120,6 +120,8 @@ static int write_files(const struct solve_run *run, const igabem_solution *solut
         code = solve_write_vtu(solution, run->input, request->vtu);
     if (code == CLI_OK && request->waves)
         code = solve_write_waves(solution, run, request->waves);
+    if (code == CLI_OK && request->pressure_plot)
+        code = solve_write_pressure(solution, run, request->pressure_plot);
     if (code == CLI_OK && request->spectrum)
         code = solve_write_spectrum(solution, request->spectrum);
     return code;
@@ -274,7 +276,7 @@ int command_solve(int argc, char **argv)
     if (code == CLI_OK)
         warn_of_gap(&run);
     if (code == CLI_OK && request.plot)
-        code = solve_write_plot(&run, request.plot);
+        code = solve_write_plot(&run, request.plot) ? CLI_OK : CLI_FAILED;
     if (code == CLI_OK)
         code = request.json ? solve_print_json(&run) : solve_print_table(&run);
     free(run.results);

@@ -22,7 +22,7 @@ struct solve_request {
     double x_s;            /* metres, NAN: options.stern_length */
     double viscosity;      /* kinematic, m^2/s */
     double form_factor;
-    const char *vtu, *waves, *plot, *spectrum;
+    const char *vtu, *waves, *plot, *pressure_plot, *spectrum;
     size_t waves_grid[2];
     double waves_box[4]; /* x0, x1, y0, y1 in lengths from the fore end, NAN: default */
     bool json;
@@ -76,9 +76,27 @@ int solve_print_table(const struct solve_run *run);
 /* Files of one solution; CLI_OK or CLI_FAILED after a message. */
 int solve_write_vtu(const igabem_solution *solution, const struct hull_input *input,
                     const char *path);
+int solve_write_pressure(const igabem_solution *solution, const struct solve_run *run,
+                         const char *path);
 int solve_write_waves(const igabem_solution *solution, const struct solve_run *run,
                       const char *path);
 int solve_write_spectrum(const igabem_solution *solution, const char *path);
-int solve_write_plot(const struct solve_run *run, const char *path);
+
+/* Points of one patch on a grid of nu x nv parameters, with the fields on them. */
+struct patch_sample {
+    size_t nu, nv;
+    double *uv, *xyz, *velocity, *cp, *sigma;
+};
+
+struct wave_grid {
+    size_t nx, ny;
+    double *x, *y, *zeta; /* nx * ny each, y fast */
+};
+
+/* Pictures, .svg, .png or .pdf. False after a sentence. */
+bool solve_write_plot(const struct solve_run *run, const char *path);
+bool solve_draw_waves(const struct solve_run *run, const struct wave_grid *grid, const char *path);
+bool solve_draw_pressure(const struct solve_run *run, const struct patch_sample *samples,
+                         size_t patches, const char *path);
 
 #endif

@@ -1,5 +1,6 @@
 /* Files of a solution: the hull with what is known on it, the wave field, the spectrum. */
 #include "cli.h"
+#include "plot/plot.h"
 #include "solve.h"
 
 #include <errno.h>
@@ -7,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SIDE = 5 /* points a side per knot span in a .vtu */ };
+/* Cells a knot span of a .vtu; least cells of a picture along and across a patch. */
+enum { SPAN_CELLS = 4, PICTURE_ALONG = 160, PICTURE_ACROSS = 40 };
 
 static int finish(struct cli_file *file, const char *path)
 {
@@ -21,12 +23,6 @@ static const char *file_note(void)
     return "igabem " TOOL_VERSION;
 }
 
-/* Points of one patch on a grid of nu x nv parameters, with the fields on them. */
-struct patch_sample {
-    size_t nu, nv;
-    double *uv, *xyz, *velocity, *cp, *sigma;
-};
-
 static void sample_free(struct patch_sample *sample)
 {
     free(sample->uv);
@@ -36,18 +32,17 @@ static void sample_free(struct patch_sample *sample)
     free(sample->sigma);
 }
 
-static size_t sample_count(const nurbs_surface *surface, int d)
+static size_t span_count(const nurbs_surface *surface, int d)
 {
-    int degree = nurbs_surface_degree(surface, d);
     size_t size = nurbs_surface_size(surface, d), spans = 0;
     const double *knots = nurbs_surface_knots(surface, d);
-    for (size_t s = (size_t)degree; s < size; s++)
+    for (size_t s = (size_t)nurbs_surface_degree(surface, d); s < size; s++)
         spans += knots[s + 1] > knots[s];
-    return spans * (SIDE - 1) + 1;
+    return spans;
 }
 
-/* i-th of the parameters that divide every knot span evenly. */
-static double sample_parameter(const nurbs_surface *surface, int d, size_t i)
+/* i-th of the parameters that divide every knot span into `cells`. */
+static double sample_parameter(const nurbs_surface *surface, int d, size_t cells, size_t i)
 {
     size_t s = (size_t)nurbs_surface_degree(surface, d), left = i;
     const double *knots = nurbs_surface_knots(surface, d);
@@ -55,17 +50,25 @@ static double sample_parameter(const nurbs_surface *surface, int d, size_t i)
     for (; s < last; s++) {
         if (!(knots[s + 1] > knots[s]))
             continue;
-        if (left < SIDE - 1)
-            return knots[s] + (knots[s + 1] - knots[s]) * (double)left / (SIDE - 1.0);
-        left -= SIDE - 1;
+        if (left < cells)
+            return knots[s] + (knots[s + 1] - knots[s]) * (double)left / (double)cells;
+        left -= cells;
     }
     return knots[last];
 }
 
+/* picture: cells small enough to be seen as a smooth field; else so many a span. */
 static int sample_patch(const igabem_solution *solution, const nurbs_surface *surface, size_t patch,
-                        struct patch_sample *out)
+                        bool picture, struct patch_sample *out)
 {
-    *out = (struct patch_sample){sample_count(surface, 0), sample_count(surface, 1), 0, 0, 0, 0, 0};
+    static const size_t least[2] = {PICTURE_ALONG, PICTURE_ACROSS};
+    size_t cells[2], count[2];
+    for (int d = 0; d < 2; d++) {
+        size_t spans = span_count(surface, d);
+        cells[d] = picture ? (least[d] + spans - 1) / spans : SPAN_CELLS;
+        count[d] = spans * cells[d] + 1;
+    }
+    *out = (struct patch_sample){.nu = count[0], .nv = count[1]};
     size_t n = out->nu * out->nv;
     out->uv = malloc(n * 2 * sizeof(double));
     out->xyz = malloc(n * 3 * sizeof(double));
@@ -76,8 +79,8 @@ static int sample_patch(const igabem_solution *solution, const nurbs_surface *su
         return cli_fail("out of memory");
     for (size_t i = 0; i < out->nu; i++)
         for (size_t j = 0; j < out->nv; j++) {
-            out->uv[2 * (i * out->nv + j)] = sample_parameter(surface, 0, i);
-            out->uv[2 * (i * out->nv + j) + 1] = sample_parameter(surface, 1, j);
+            out->uv[2 * (i * out->nv + j)] = sample_parameter(surface, 0, cells[0], i);
+            out->uv[2 * (i * out->nv + j) + 1] = sample_parameter(surface, 1, cells[1], j);
         }
     if (nurbs_surface_eval(surface, 0, n, out->uv, out->xyz))
         return cli_fail("%s", nurbs_last_error());
@@ -189,15 +192,18 @@ static int write_hull_grid(const struct patch_sample *samples, size_t patches, c
     return finish(&file, path);
 }
 
-int solve_write_vtu(const igabem_solution *solution, const struct hull_input *input,
-                    const char *path)
+/* The patches of the hull, handed to a writer of a file. */
+static int write_samples(const igabem_solution *solution, const struct hull_input *input,
+                         const struct solve_run *run, const char *path)
 {
     size_t patches = nurbs_patches_count(input->patches);
     struct patch_sample *samples = calloc(patches, sizeof *samples);
     int code = samples ? CLI_OK : cli_fail("out of memory");
     for (size_t p = 0; code == CLI_OK && p < patches; p++)
-        code = sample_patch(solution, nurbs_patches_get(input->patches, p), p, &samples[p]);
-    if (code == CLI_OK)
+        code = sample_patch(solution, nurbs_patches_get(input->patches, p), p, run, &samples[p]);
+    if (code == CLI_OK && run)
+        code = solve_draw_pressure(run, samples, patches, path) ? CLI_OK : CLI_FAILED;
+    else if (code == CLI_OK)
         code = write_hull_grid(samples, patches, path);
     for (size_t p = 0; samples && p < patches; p++)
         sample_free(&samples[p]);
@@ -205,10 +211,22 @@ int solve_write_vtu(const igabem_solution *solution, const struct hull_input *in
     return code;
 }
 
-struct wave_grid {
-    size_t nx, ny;
-    double *x, *y, *zeta; /* nx * ny each, y fast */
-};
+int solve_write_vtu(const igabem_solution *solution, const struct hull_input *input,
+                    const char *path)
+{
+    return write_samples(solution, input, NULL, path);
+}
+
+int solve_write_pressure(const igabem_solution *solution, const struct solve_run *run,
+                         const char *path)
+{
+    igabem_formulation formulation = igabem_solution_options(solution)->formulation;
+    if (igabem_solution_options(solution)->kernel == IGABEM_KERNEL_KELVIN &&
+        !igabem_formulation_info(formulation)->solves)
+        return cli_fail("--pressure-plot %s: formulation %s knows no pressure on the hull", path,
+                        igabem_formulation_name(formulation));
+    return write_samples(solution, run->input, run, path);
+}
 
 static int wave_grid_make(const igabem_solution *solution, const struct solve_run *run,
                           struct wave_grid *grid)
@@ -290,10 +308,14 @@ int solve_write_waves(const igabem_solution *solution, const struct solve_run *r
 {
     struct wave_grid grid;
     struct cli_file file;
-    if (!ends_with(path, ".csv") && !ends_with(path, ".vtu"))
-        return cli_fail("--waves %s: expected a name that ends in .csv or .vtu", path);
+    bool picture = plot_is_picture(path);
+    if (!picture && !ends_with(path, ".csv") && !ends_with(path, ".vtu"))
+        return cli_fail("--waves %s: expected a name that ends in .csv, .vtu, .svg, .png or .pdf",
+                        path);
     int code = wave_grid_make(solution, run, &grid);
-    if (code == CLI_OK && !cli_file_open(&file, path))
+    if (code == CLI_OK && picture)
+        code = solve_draw_waves(run, &grid, path) ? CLI_OK : CLI_FAILED;
+    else if (code == CLI_OK && !cli_file_open(&file, path))
         code = cli_fail("%s: %s", path, strerror(errno));
     else if (code == CLI_OK) {
         if (ends_with(path, ".csv")) {

@@ -1,4 +1,5 @@
 #include "cli.h"
+#include "plot/plot.h"
 #include "solve.h"
 
 #include <getopt.h>
@@ -57,12 +58,15 @@ static const char help[] =
     "\n"
     "Files (of the finest level; with several Froude numbers, of the last one):\n"
     "  --vtu FILE          hull with velocity, pressure coefficient and source density\n"
-    "  --waves FILE        wave elevation on a grid: .csv or .vtu\n"
+    "  --waves FILE        wave elevation on a grid: .csv or .vtu, or its picture: .svg .png .pdf\n"
     "  --waves-grid N,M    points along and across (200,60)\n"
     "  --waves-box A,B,C,D x from A to B, y from C to D, in lengths from the fore end "
     "(-3,0.25,0,1)\n"
     "  --spectrum FILE     Kochin function and d C_w/d t against t: .csv\n"
-    "  --plot FILE.svg     C_w against Froude number; by pressure dashed, 0.85 to 1.15 t_c shaded\n"
+    "  --plot FILE         C_w against Froude number; by pressure dashed, 0.85 to 1.15 t_c "
+    "shaded:\n"
+    "                      .svg .png .pdf\n"
+    "  --pressure-plot FILE  C_p on the side and the bottom of the hull: .svg .png .pdf\n"
     "\n"
     "  --json              one JSON object on standard output and nothing else\n"
     "  --threads N         threads to use\n"
@@ -108,6 +112,7 @@ enum option_value {
     OPT_WAVES_BOX,
     OPT_SPECTRUM,
     OPT_PLOT,
+    OPT_PRESSURE_PLOT,
     OPT_JSON,
     OPT_THREADS,
     OPT_HELP,
@@ -152,6 +157,7 @@ static const struct option options[] = {
     {"waves-box", required_argument, NULL, OPT_WAVES_BOX},
     {"spectrum", required_argument, NULL, OPT_SPECTRUM},
     {"plot", required_argument, NULL, OPT_PLOT},
+    {"pressure-plot", required_argument, NULL, OPT_PRESSURE_PLOT},
     {"json", no_argument, NULL, OPT_JSON},
     {"threads", required_argument, NULL, OPT_THREADS},
     {"help", no_argument, NULL, OPT_HELP},
@@ -384,7 +390,10 @@ static int take(int opt, struct solve_request *r, bool *done)
         return CLI_OK;
     case OPT_PLOT:
         r->plot = optarg;
-        return CLI_OK;
+        return plot_check_path("--plot", optarg) ? CLI_OK : CLI_USAGE;
+    case OPT_PRESSURE_PLOT:
+        r->pressure_plot = optarg;
+        return plot_check_path("--pressure-plot", optarg) ? CLI_OK : CLI_USAGE;
     case OPT_JSON:
         r->json = true;
         return CLI_OK;

@@ -1,154 +1,260 @@
-/* C_w against Froude number as a small SVG: one line per formulation, axes with round numbers; of
- * the first formulation also C_w by pressure, dashed, and the band between 0.85 and 1.15 t_c. */
+/* Pictures of a run: C_w against Froude number, the wave pattern, the pressure on the hull. */
 #include "cli.h"
+#include "plot/ship.h"
 #include "solve.h"
 
-#include <errno.h>
+#include <igabem/igabem.h>
+
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
-
-enum { WIDTH = 760, HEIGHT = 480, LEFT = 70, RIGHT = 190, TOP = 24, BOTTOM = 56 };
-
-struct frame {
-    double x0, x1, y0, y1;
-};
-
-static double to_x(const struct frame *f, double value)
-{
-    return LEFT + (value - f->x0) / (f->x1 - f->x0) * (WIDTH - LEFT - RIGHT);
-}
-
-static double to_y(const struct frame *f, double value)
-{
-    return HEIGHT - BOTTOM - (value - f->y0) / (f->y1 - f->y0) * (HEIGHT - TOP - BOTTOM);
-}
-
-/* The largest of 1, 2, 5 times a power of ten that gives at least `ticks` steps. */
-static double tick_step(double range, int ticks)
-{
-    double power = pow(10.0, floor(log10(range / ticks)));
-    double steps[4] = {1, 2, 5, 10}, step = power;
-    for (int k = 0; k < 4; k++)
-        if (steps[k] * power * ticks <= range)
-            step = steps[k] * power;
-    return step;
-}
-
-static void draw_axes(FILE *f, const struct frame *frame)
-{
-    fprintf(f, "<g stroke=\"#bbb\" stroke-width=\"1\" fill=\"#222\" font-size=\"13\">\n");
-    double dx = tick_step(frame->x1 - frame->x0, 5), dy = tick_step(frame->y1 - frame->y0, 4);
-    for (double x = ceil(frame->x0 / dx - 1e-9) * dx; x <= frame->x1 + 1e-9 * dx; x += dx)
-        fprintf(f,
-                "<line x1=\"%.1f\" y1=\"%d\" x2=\"%.1f\" y2=\"%d\"/><text x=\"%.1f\" y=\"%d\" "
-                "text-anchor=\"middle\" stroke=\"none\">%.4g</text>\n",
-                to_x(frame, x), TOP, to_x(frame, x), HEIGHT - BOTTOM, to_x(frame, x),
-                HEIGHT - BOTTOM + 18, x);
-    for (double y = ceil(frame->y0 / dy - 1e-9) * dy; y <= frame->y1 + 1e-9 * dy; y += dy)
-        fprintf(f,
-                "<line x1=\"%d\" y1=\"%.1f\" x2=\"%d\" y2=\"%.1f\"/><text x=\"%d\" y=\"%.1f\" "
-                "text-anchor=\"end\" stroke=\"none\">%.4g</text>\n",
-                LEFT, to_y(frame, y), WIDTH - RIGHT, to_y(frame, y), LEFT - 8, to_y(frame, y) + 4,
-                fabs(y) < 1e-9 * dy ? 0.0 : y);
-    fprintf(f,
-            "<text x=\"%d\" y=\"%d\" text-anchor=\"middle\" stroke=\"none\">Fr</text>\n"
-            "<text x=\"18\" y=\"%d\" text-anchor=\"middle\" stroke=\"none\" "
-            "transform=\"rotate(-90 18 %d)\">1000 C_w</text>\n</g>\n",
-            LEFT + (WIDTH - LEFT - RIGHT) / 2, HEIGHT - 12, (HEIGHT - BOTTOM + TOP) / 2,
-            (HEIGHT - BOTTOM + TOP) / 2);
-}
 
 static const char *const colours[6] = {"#1b6ca8", "#c0392b", "#27825c",
                                        "#8e44ad", "#b9770e", "#555555"};
 
-/* Entry number `row` of the legend. */
-static void draw_legend(FILE *f, size_t row, const char *colour, const char *dashes,
-                        const char *text)
-{
-    int y = TOP + 14 + 20 * (int)row;
-    fprintf(f,
-            "<line x1=\"%d\" y1=\"%d\" x2=\"%d\" y2=\"%d\" stroke=\"%s\" stroke-width=\"2\"%s/>"
-            "<text x=\"%d\" y=\"%d\" font-size=\"12\">%s</text>\n",
-            WIDTH - RIGHT + 10, y, WIDTH - RIGHT + 34, y, colour, dashes, WIDTH - RIGHT + 40, y + 4,
-            text);
-}
+/* One figure of the results of a formulation at every Froude number. */
+struct series {
+    const struct solve_run *run;
+    size_t which, per_fr, n;
+    double *fr, *cw, *pressure, *lower, *upper; /* n each, one block */
+};
 
-/* What the first formulation is worth: its cut-off band and its pressure. */
-static void draw_doubt(FILE *f, const struct frame *frame, const struct solve_run *run,
-                       size_t per_fr)
+static bool series_fill(const struct solve_run *run, size_t which, size_t per_fr, struct series *s)
 {
-    static const char dashes[] = " stroke-dasharray=\"5 4\"";
-    const struct solve_result *r = solve_run_result(run, run->levels - 1, 0);
     size_t n = run->request->n_fr;
-    if (isfinite(r->forces.cw_cutoff_lower) && isfinite(r->forces.cw_cutoff_upper)) {
-        fprintf(f, "<polygon fill=\"%s\" fill-opacity=\"0.2\" stroke=\"none\" points=\"",
-                colours[0]);
-        for (size_t i = 0; i < n; i++)
-            fprintf(f, "%.2f,%.2f ", to_x(frame, r[i * per_fr].options.froude),
-                    to_y(frame, 1000.0 * r[i * per_fr].forces.cw_cutoff_lower));
-        for (size_t i = n; i-- > 0;)
-            fprintf(f, "%.2f,%.2f ", to_x(frame, r[i * per_fr].options.froude),
-                    to_y(frame, 1000.0 * r[i * per_fr].forces.cw_cutoff_upper));
-        fprintf(f, "\"/>\n");
-    }
-    if (!isfinite(r->forces.cw_pressure))
-        return;
-    fprintf(f, "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"1.5\"%s points=\"", colours[0],
-            dashes);
-    for (size_t i = 0; i < n; i++)
-        fprintf(f, "%.2f,%.2f ", to_x(frame, r[i * per_fr].options.froude),
-                to_y(frame, 1000.0 * r[i * per_fr].forces.cw_pressure));
-    fprintf(f, "\"/>\n");
-    draw_legend(f, per_fr, colours[0], dashes, "the first, by pressure");
-}
-
-static void draw_series(FILE *f, const struct frame *frame, const struct solve_run *run,
-                        size_t which, size_t per_fr)
-{
-    const struct solve_result *first = solve_run_result(run, run->levels - 1, which);
-    fprintf(f, "<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"2\" points=\"",
-            colours[which % 6]);
-    for (size_t i = 0; i < run->request->n_fr; i++) {
+    double *block = malloc(5 * n * sizeof *block);
+    if (!block)
+        return cli_refuse("out of memory");
+    *s = (struct series){run,           which,         per_fr,       n, block, block + n,
+                         block + 2 * n, block + 3 * n, block + 4 * n};
+    for (size_t i = 0; i < n; i++) {
         const struct solve_result *r = solve_run_result(run, run->levels - 1, i * per_fr + which);
-        fprintf(f, "%.2f,%.2f ", to_x(frame, r->options.froude),
-                to_y(frame, 1000.0 * r->forces.cw));
+        s->fr[i] = r->options.froude;
+        s->cw[i] = r->forces.cw;
+        s->pressure[i] = r->forces.cw_pressure;
+        s->lower[i] = r->forces.cw_cutoff_lower;
+        s->upper[i] = r->forces.cw_cutoff_upper;
     }
-    fprintf(f, "\"/>\n");
-    draw_legend(f, which, colours[which % 6], "",
-                igabem_formulation_name(first->options.formulation));
+    return true;
 }
 
-int solve_write_plot(const struct solve_run *run, const char *path)
+/* One line per formulation; of the first also C_w by pressure and the band of the cut-off. */
+static void draw_series(struct plot *plot, const struct plot_frame *f, const struct series *s,
+                        struct plot_legend *legend, size_t *entries)
 {
-    size_t n = run->request->n_fr, per_fr = run->cases / n;
-    struct frame frame = {INFINITY, -INFINITY, 0.0, 0.0};
-    for (size_t c = 0; c < run->cases; c++) {
-        const struct solve_result *r = solve_run_result(run, run->levels - 1, c);
-        frame.x0 = fmin(frame.x0, r->options.froude);
-        frame.x1 = fmax(frame.x1, r->options.froude);
-        frame.y1 = fmax(frame.y1, 1080.0 * r->forces.cw);
-        if (c % per_fr == 0) /* fmax and fmin leave NAN out */
-            frame.y1 = fmax(frame.y1, 1080.0 * r->forces.cw_pressure);
-        if (c % per_fr == 0)
-            frame.y0 = fmin(frame.y0, 1080.0 * r->forces.cw_pressure);
+    const struct solve_result *first = solve_run_result(s->run, s->run->levels - 1, s->which);
+    const struct plot_pen pen = {colours[s->which % 6], 2, NULL}, dashed = {pen.colour, 1.5, "5 4"};
+    plot_curve(plot, f, s->n, s->fr, s->cw, pen);
+    for (size_t i = 0; i < s->n; i++)
+        plot_mark(plot, plot_x(f, s->fr[i]), plot_y(f, s->cw[i]), PLOT_DOT, 2.5, pen.colour, NULL);
+    legend[(*entries)++] =
+        (struct plot_legend){igabem_formulation_name(first->options.formulation), pen, PLOT_LINE};
+    if (s->which == 0 && isfinite(s->pressure[0])) {
+        plot_curve(plot, f, s->n, s->fr, s->pressure, dashed);
+        legend[(*entries)++] = (struct plot_legend){"its C_{w} by pressure", dashed, PLOT_LINE};
     }
-    if (!(frame.x1 > frame.x0) || !(frame.y1 > 0))
-        return cli_fail("--plot %s: expected at least two Froude numbers and a wave resistance",
-                        path);
-    struct cli_file file;
-    if (!cli_file_open(&file, path))
-        return cli_fail("%s: %s", path, strerror(errno));
-    fprintf(file.stream,
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" "
-            "viewBox=\"0 0 %d %d\" font-family=\"sans-serif\">\n"
-            "<!-- igabem %s -->\n<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n",
-            WIDTH, HEIGHT, WIDTH, HEIGHT, TOOL_VERSION);
-    draw_axes(file.stream, &frame);
-    draw_doubt(file.stream, &frame, run, per_fr);
-    for (size_t which = 0; which < per_fr; which++)
-        draw_series(file.stream, &frame, run, which, per_fr);
-    fprintf(file.stream, "</svg>\n");
-    if (!cli_file_commit(&file))
-        return cli_fail("%s: %s", path, strerror(errno));
-    return CLI_OK;
+    if (s->which == 0 && isfinite(s->lower[0]) && isfinite(s->upper[0])) {
+        plot_band(plot, f, s->n, s->fr, s->lower, s->upper, pen.colour);
+        legend[(*entries)++] = (struct plot_legend){"its cut-off × 0.85–1.15", pen, PLOT_BAND};
+    }
+}
+
+bool solve_write_plot(const struct solve_run *run, const char *path)
+{
+    enum { WIDTH = 860, HEIGHT = 480, MOST = 16 };
+    static const double zero = 0;
+    struct plot_frame f = {.left = 70, .top = 20, .width = WIDTH - 290, .height = HEIGHT - 70};
+    struct plot_legend legend[MOST + 2];
+    struct series series[MOST] = {0};
+    struct plot plot;
+    size_t per_fr = run->cases / run->request->n_fr, entries = 0;
+    bool good = per_fr <= MOST;
+    f.x = (struct plot_axis){.low = INFINITY, .high = -INFINITY, .label = "Fr"};
+    f.y =
+        (struct plot_axis){.low = INFINITY, .high = -INFINITY, .unit = 1000, .label = "1000 C_{w}"};
+    for (size_t k = 0; k < per_fr && good; k++) {
+        good = series_fill(run, k, per_fr, &series[k]);
+        if (!good)
+            break;
+        plot_include(&f.x, series[k].n, series[k].fr);
+        plot_include(&f.y, series[k].n, series[k].cw);
+        if (k == 0)
+            plot_include(&f.y, series[k].n, series[k].pressure);
+    }
+    if (good && (!(f.x.high > f.x.low) || !(f.y.high > 0)))
+        good = cli_refuse("--plot %s: expected at least two Froude numbers and a wave resistance",
+                          path);
+    if (good)
+        good = plot_open(&plot, WIDTH, HEIGHT, "Wave resistance against Froude number");
+    if (good) {
+        plot_include(&f.y, 1, &zero);
+        plot_nice(&f.y, 6);
+        plot_axes(&plot, &f);
+        plot_clip(&plot, &f);
+        for (size_t k = 0; k < per_fr; k++)
+            draw_series(&plot, &f, &series[k], legend, &entries);
+        plot_unclip(&plot);
+        plot_legend(&plot, f.left + f.width + 16, f.top + 14, true, entries, legend);
+        good = plot_save(&plot, path);
+    }
+    for (size_t k = 0; k < per_fr && k < MOST; k++)
+        free(series[k].fr);
+    return good;
+}
+
+static int compare(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Points of the waterline, from aft; *edge is NULL where there is none. */
+static bool waterline(const struct hull_input *input, double length, size_t *n, double **edge)
+{
+    /* Just below the water, where the wetted patches end. */
+    static const double below = 1e-5, normal[3] = {0, 0, 1};
+    *n = 0;
+    *edge = NULL;
+    for (size_t p = 0; p < nurbs_patches_count(input->patches); p++) {
+        nurbs_contour c;
+        if (nurbs_surface_contour(nurbs_patches_get(input->patches, p), normal, -below * length, 32,
+                                  &c))
+            return cli_refuse("%s", nurbs_last_error());
+        size_t points = c.lines ? c.first[c.lines] : 0;
+        double *more = realloc(*edge, 2 * (*n + points + 1) * sizeof *more);
+        for (size_t i = 0; more && i < points; i++)
+            if (c.points[3 * i + 1] >= 0) {
+                more[2 * *n] = c.points[3 * i];
+                more[2 * (*n)++ + 1] = c.points[3 * i + 1];
+            }
+        nurbs_contour_free(&c);
+        if (!more)
+            return cli_refuse("out of memory");
+        *edge = more;
+    }
+    if (*n)
+        qsort(*edge, *n, 2 * sizeof **edge, compare);
+    return true;
+}
+
+bool solve_draw_waves(const struct solve_run *run, const struct wave_grid *grid, const char *path)
+{
+    enum { WIDTH = 1100 };
+    char name[80];
+    double *edge = NULL;
+    size_t n_edge = 0;
+    const struct solve_result *last = solve_run_result(run, run->levels - 1, run->cases - 1);
+    snprintf(name, sizeof name, "Fr %.4g", last->options.froude);
+    bool good = waterline(run->input, run->info.length, &n_edge, &edge);
+    const struct plot_waves waves = {name,       grid->nx,
+                                     grid->ny,   n_edge,
+                                     grid->x[0], grid->x[grid->ny] - grid->x[0],
+                                     grid->y[0], grid->y[1] - grid->y[0],
+                                     grid->zeta, edge};
+    struct plot plot;
+    good = good && plot_wave_pattern(&plot, WIDTH, 1, &waves) && plot_save(&plot, path);
+    free(edge);
+    return good;
+}
+
+enum { LEVELS = 12 }; /* about so many lines of equal pressure */
+
+/* What the 90th percentile of |Cp| asks for: points are dense at the ends of a hull, and the
+ * stagnation points would leave the rest pale. */
+static struct plot_scale pressure_scale(const struct patch_sample *samples, size_t patches)
+{
+    struct plot_scale scale = {PLOT_DIVERGING, {.low = -1, .high = 1, .label = "C_{p}"}};
+    size_t n = 0, room = 1;
+    for (size_t p = 0; p < patches; p++)
+        room += samples[p].nu * samples[p].nv;
+    double *all = malloc(room * sizeof *all);
+    for (size_t p = 0; all && p < patches; p++)
+        for (size_t i = 0; i < samples[p].nu * samples[p].nv; i++)
+            if (isfinite(samples[p].cp[i]))
+                all[n++] = fabs(samples[p].cp[i]);
+    if (n) {
+        qsort(all, n, sizeof *all, compare);
+        scale.axis.high = all[(n - 1) * 90 / 100];
+        scale.axis.low = -scale.axis.high;
+        plot_nice(&scale.axis, LEVELS);
+    }
+    free(all);
+    return scale;
+}
+
+/* One view of all patches: coordinate `up` over x. */
+static bool draw_pressure(struct plot *plot, const struct plot_frame *f, size_t up,
+                          const struct patch_sample *samples, size_t patches,
+                          const struct plot_scale *scale)
+{
+    double level[PLOT_TICKS];
+    char text[PLOT_TICKS][24];
+    size_t levels = plot_ticks(&scale->axis, LEVELS, level, text);
+    for (size_t p = 0; p < patches; p++) {
+        size_t n = samples[p].nu * samples[p].nv;
+        double *xy = malloc(2 * n * sizeof *xy);
+        if (!xy)
+            return cli_refuse("out of memory");
+        for (size_t i = 0; i < n; i++) {
+            xy[i] = samples[p].xyz[3 * i];
+            xy[n + i] = samples[p].xyz[3 * i + up];
+        }
+        const struct plot_field field = {samples[p].nu, samples[p].nv, xy, xy + n, samples[p].cp};
+        plot_cells(plot, f, &field, scale);
+        for (size_t k = 0; k < levels; k++)
+            plot_isolines(plot, f, &field, level[k],
+                          (struct plot_pen){PLOT_INK, fabs(level[k]) < 1e-12 ? 1.1 : 0.5, NULL});
+        free(xy);
+    }
+    return true;
+}
+
+bool solve_draw_pressure(const struct solve_run *run, const struct patch_sample *samples,
+                         size_t patches, const char *path)
+{
+    enum { WIDTH = 1100, WANTED = 140, TOP = 40, GAP = 74 };
+    static const size_t across[2] = {2, 1};
+    const struct solve_result *last = solve_run_result(run, run->levels - 1, run->cases - 1);
+    struct plot_axis axis[3];
+    for (size_t k = 0; k < 3; k++)
+        axis[k] = (struct plot_axis){.low = INFINITY, .high = -INFINITY};
+    for (size_t p = 0; p < patches; p++)
+        for (size_t i = 0; i < 3 * samples[p].nu * samples[p].nv; i++)
+            plot_include(&axis[i % 3], 1, &samples[p].xyz[i]);
+    for (size_t k = 0; k < 3; k++)
+        plot_settle(&axis[k]);
+    const struct plot_scale scale = pressure_scale(samples, patches);
+    double s = (WIDTH - 170) / (axis[0].high - axis[0].low), top = TOP, height[2];
+    char label[2][60];
+    for (size_t v = 0; v < 2; v++) {
+        double tall = s * (axis[across[v]].high - axis[across[v]].low);
+        double larger = fmin(fmax(1, ceil(WANTED / tall)), 4);
+        height[v] = larger * tall;
+        snprintf(label[v], sizeof label[v], "%s, m%s", v ? "y" : "z",
+                 larger > 1 ? " (enlarged)" : "");
+        axis[across[v]].label = label[v];
+    }
+    struct plot plot;
+    if (!plot_open(&plot, WIDTH, TOP + height[0] + GAP + height[1] + 60, "Pressure on the hull"))
+        return false;
+    plot_text(&plot, 70, 22, 13, PLOT_START, PLOT_INK,
+              "C_{p} at Fr %.4g, %s, from the side and from below; lines %.2g apart",
+              last->options.froude, igabem_formulation_name(last->options.formulation),
+              plot_tick_step(scale.axis.high - scale.axis.low, LEVELS, false));
+    bool good = true;
+    for (size_t v = 0; v < 2 && good; v++) {
+        struct plot_frame f = {70, top, WIDTH - 170, height[v], axis[0], axis[across[v]]};
+        f.x.label = v ? "x, m (forward to the right)" : NULL;
+        plot_axes(&plot, &f);
+        good = draw_pressure(&plot, &f, across[v], samples, patches, &scale);
+        if (v == 0 && f.y.high >= 0)
+            plot_line(&plot, f.left, plot_y(&f, 0), f.left + f.width, plot_y(&f, 0),
+                      (struct plot_pen){PLOT_BLUE, 2, NULL});
+        top += height[v] + GAP;
+    }
+    plot_bar(&plot, WIDTH - 76, TOP + 14, 16, plot.height - TOP - 80, &scale);
+    if (good)
+        return plot_save(&plot, path);
+    plot_free(&plot);
+    return false;
 }

@@ -84,11 +84,12 @@ static void keep_box(struct plot *plot, struct plot_box box)
     plot->boxes[plot->n_boxes++] = box;
 }
 
-/* "C_{w}" with its subscript. */
+/* "C_{w}" with its subscript; what follows it is raised again, to the end. */
 static void write_marked(FILE *out, const char *text, double size)
 {
     char part[256];
     const char *mark;
+    int open = 0;
     while ((mark = strstr(text, "_{")) && strchr(mark, '}')) {
         const char *end = strchr(mark, '}');
         snprintf(part, sizeof part, "%.*s", (int)(mark - text), text);
@@ -96,10 +97,19 @@ static void write_marked(FILE *out, const char *text, double size)
         snprintf(part, sizeof part, "%.*s", (int)(end - mark - 2), mark + 2);
         fprintf(out, "<tspan font-size=\"%.1f\" dy=\"%.1f\">", fmax(9, 0.75 * size), 0.25 * size);
         plot_escape(out, part);
-        fprintf(out, "</tspan><tspan dy=\"%.1f\">%s</tspan>", -0.25 * size, end[1] ? "" : "\u200b");
+        fputs("</tspan>", out);
         text = end + 1;
+        if (*text) {
+            /* A blank at the start of an element would be dropped. */
+            fprintf(out, "<tspan dx=\"%.1f\" dy=\"%.1f\">", *text == ' ' ? 0.32 * size : 0,
+                    -0.25 * size);
+            text += *text == ' ';
+            open++;
+        }
     }
     plot_escape(out, text);
+    for (; open > 0; open--)
+        fputs("</tspan>", out);
 }
 
 static bool put_text(struct plot *plot, double x, double y, double size, enum plot_anchor anchor,
