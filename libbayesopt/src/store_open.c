@@ -76,9 +76,19 @@ static bayesopt_status create_tables(struct bayesopt *bo)
     return status ? status : store_put_problem(bo);
 }
 
+/* The command of version 0.1.0 kept names of variables and constraints in a table of its own. */
 static bayesopt_status migrate(struct store *store)
 {
+    int64_t names = 0;
     bayesopt_status status = store_execute(store, schema_2);
+    if (!status)
+        status = query_count(
+            store, "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name = 'names'",
+            &names);
+    if (!status && names)
+        status = store_execute(store, "INSERT INTO bayesopt_texts(name, value) "
+                                      "SELECT kind || '.' || (i + 1), name FROM names;"
+                                      "DROP TABLE names");
     return status ? status : put_format(store);
 }
 

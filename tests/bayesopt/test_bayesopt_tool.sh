@@ -77,6 +77,37 @@ if command -v gnuplot >/dev/null; then
 fi
 expect 2 "$tool" plot run.db -o history.txt
 
+# A store belongs to one study: what differs is named, and the history stays as it was.
+cat >study.yaml <<'YAML'
+store: study.db
+variables:
+  - {name: beam, lower: 0, upper: 1}
+  - {name: draft, lower: 0, upper: 1}
+objective: {command: "echo {beam}"}
+search: {evaluations: 5, initial: 4}
+YAML
+expect 0 "$tool" run study.yaml
+sed 's/name: beam/name: depth/; s/{beam}/{depth}/' study.yaml >other.yaml
+expect 1 "$tool" run other.yaml
+grep -q "variable.1 is 'beam' there, 'depth' here" err || fail "renamed variable: $(cat err)"
+sed 's/echo {beam}/echo {draft}/' study.yaml >other.yaml
+expect 1 "$tool" run other.yaml
+grep -q "objective.command is 'echo {beam}' there" err || fail "another command: $(cat err)"
+sed 's/draft, lower: 0, upper: 1/draft, lower: 0, upper: 2/' study.yaml >other.yaml
+expect 1 "$tool" run other.yaml
+grep -q "another problem: 'upper'" err || fail "other bounds: $(cat err)"
+sed 's/evaluations: 5/evaluations: 7/' study.yaml >other.yaml
+expect 0 "$tool" run other.yaml --json
+[ "$(number evaluations)" = 7 ] || fail "the same study did not go on: $(cat out)"
+
+# Looking needs no write permission and changes nothing.
+cp study.db kept.db && chmod 444 study.db
+expect 0 "$tool" best study.db
+grep -q '^beam = ' out || fail "best without write permission: $(cat out)"
+expect 0 "$tool" status study.db
+expect 0 "$tool" export study.db
+cmp -s study.db kept.db || fail "looking at a store changed it"
+
 # Every way an evaluation fails is recorded with its reason.
 cat >fail.yaml <<'YAML'
 variables:

@@ -66,11 +66,8 @@ static bool create_from_config(const char *store, const char *path)
     bayesopt *bo = NULL;
     if (!config_read(path, &config))
         return false;
-    bool ok = !config_create(&config, store, &bo);
-    if (!ok)
-        cli_fail("%s", bayesopt_last_error());
+    bool ok = config_create(&config, store, &bo);
     bayesopt_free(bo);
-    ok = ok && names_write(store, &config.names);
     config_free(&config);
     return ok;
 }
@@ -116,7 +113,7 @@ static int ask(const char *store, const struct arguments *a)
 {
     bayesopt *bo;
     struct names names;
-    if (!store_open(store, &bo, &names))
+    if (!store_open_to_write(store, &bo, &names))
         return CLI_FAILED;
     double *x = malloc(a->n * names.d * sizeof *x);
     uint64_t *ids = calloc(a->n, sizeof *ids);

@@ -315,15 +315,26 @@ void config_free(struct config *c)
     c->lower = NULL;
 }
 
-bayesopt_status config_create(const struct config *c, const char *store, bayesopt **bo)
+/* What says what is evaluated, in addition to the names. */
+static bool keep_objective(const struct config *c, bayesopt *bo)
 {
-    bayesopt_status status = bayesopt_create(c->names.d, c->lower, c->upper, &c->options, bo);
-    if (status)
-        return status;
-    status = bayesopt_open_store(*bo, store);
-    if (status) {
+    const struct config_file *f = c->file;
+    const char *key = f->objective.key, *cheap = f->levels.cheap;
+    return names_keep(bo, &c->names) && store_keep(bo, "objective.command", f->objective.command) &&
+           store_keep(bo, "objective.key", key ? key : "") &&
+           store_keep(bo, "levels.cheap", cheap ? cheap : "");
+}
+
+bool config_create(const struct config *c, const char *store, bayesopt **bo)
+{
+    *bo = NULL;
+    bool ok = (!bayesopt_create(c->names.d, c->lower, c->upper, &c->options, bo) &&
+               !bayesopt_open_store(*bo, store)) ||
+              cli_refuse("%s", bayesopt_last_error());
+    ok = ok && keep_objective(c, *bo);
+    if (!ok) {
         bayesopt_free(*bo);
         *bo = NULL;
     }
-    return status;
+    return ok;
 }

@@ -53,7 +53,7 @@ struct config {
 /* Prints the sentence with line and field on failure. The path is borrowed. */
 bool config_read(const char *path, struct config *config);
 void config_free(struct config *config);
-/* The optimisation it describes, on the store. */
-bayesopt_status config_create(const struct config *config, const char *store, bayesopt **bo);
+/* The optimisation it describes, on the store; refuses a store of another study. */
+bool config_create(const struct config *config, const char *store, bayesopt **bo);
 
 #endif

@@ -2,106 +2,68 @@
 
 #include "cli.h"
 
-#include <sqlite3.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static bool connect(const char *path, sqlite3 **db)
+static bool failed(void)
 {
-    if (sqlite3_open_v2(path, db, SQLITE_OPEN_READWRITE, NULL) == SQLITE_OK) {
-        sqlite3_busy_timeout(*db, 600000);
+    return cli_refuse("%s", bayesopt_last_error());
+}
+
+bool store_keep(bayesopt *bo, const char *what, const char *text)
+{
+    char *there;
+    if (bayesopt_store_get_text(bo, what, &there))
+        return failed();
+    if (!there)
+        return !bayesopt_store_put_text(bo, what, text) || failed();
+    bool same = strcmp(there, text) == 0;
+    if (!same)
+        cli_fail("the store is of another study: %s is '%s' there, '%s' here", what, there, text);
+    free(there);
+    return same;
+}
+
+bool names_keep(bayesopt *bo, const struct names *names)
+{
+    char entry[40];
+    for (size_t i = 0; i < names->d + names->m; i++) {
+        bool variable = i < names->d;
+        snprintf(entry, sizeof entry, variable ? "variable.%zu" : "constraint.%zu",
+                 1 + (variable ? i : i - names->d));
+        if (!store_keep(bo, entry,
+                        variable ? names->variables[i] : names->constraints[i - names->d]))
+            return false;
+    }
+    return true;
+}
+
+/* The text of an entry, or the short name where the store has none. */
+static bool read_name(const bayesopt *bo, const char *kind, size_t i, char **name)
+{
+    char entry[40];
+    snprintf(entry, sizeof entry, "%s.%zu", kind, i + 1);
+    if (bayesopt_store_get_text(bo, entry, name))
+        return failed();
+    if (*name)
         return true;
-    }
-    cli_fail("%s: %s", path, *db ? sqlite3_errmsg(*db) : "out of memory");
-    sqlite3_close(*db);
-    return false;
+    snprintf(entry, sizeof entry, "%c%zu", *kind == 'v' ? 'x' : 'c', i + 1);
+    *name = strdup(entry);
+    return *name || cli_refuse("out of memory");
 }
 
-static bool insert(sqlite3 *db, const char *kind, size_t i, const char *name)
+bool names_read(const bayesopt *bo, struct names *names)
 {
-    sqlite3_stmt *s;
-    if (sqlite3_prepare_v2(db, "INSERT OR IGNORE INTO names(kind, i, name) VALUES(?, ?, ?)", -1, &s,
-                           NULL) != SQLITE_OK)
-        return false;
-    sqlite3_bind_text(s, 1, kind, -1, SQLITE_STATIC);
-    sqlite3_bind_int64(s, 2, (sqlite3_int64)i);
-    sqlite3_bind_text(s, 3, name, -1, SQLITE_STATIC);
-    bool ok = sqlite3_step(s) == SQLITE_DONE;
-    sqlite3_finalize(s);
-    return ok;
-}
-
-bool names_write(const char *store, const struct names *names)
-{
-    sqlite3 *db;
-    if (!connect(store, &db))
-        return false;
-    bool ok =
-        sqlite3_exec(db,
-                     "BEGIN IMMEDIATE; CREATE TABLE IF NOT EXISTS names(kind TEXT, i INTEGER, "
-                     "name TEXT NOT NULL, PRIMARY KEY(kind, i))",
-                     NULL, NULL, NULL) == SQLITE_OK;
-    for (size_t i = 0; i < names->d && ok; i++)
-        ok = insert(db, "variable", i, names->variables[i]);
-    for (size_t i = 0; i < names->m && ok; i++)
-        ok = insert(db, "constraint", i, names->constraints[i]);
-    ok = ok && sqlite3_exec(db, "COMMIT", NULL, NULL, NULL) == SQLITE_OK;
-    if (!ok)
-        cli_fail("%s: writing names: %s", store, sqlite3_errmsg(db));
-    sqlite3_close(db);
-    return ok;
-}
-
-static bool set_name(char **slot, const char *text)
-{
-    free(*slot);
-    *slot = strdup(text);
-    return *slot != NULL;
-}
-
-/* A store without the table keeps the defaults. */
-static bool read_table(const char *store, struct names *names)
-{
-    sqlite3 *db;
-    sqlite3_stmt *s;
-    if (!connect(store, &db))
-        return false;
-    bool ok = true;
-    if (sqlite3_prepare_v2(db, "SELECT kind, i, name FROM names", -1, &s, NULL) == SQLITE_OK) {
-        while (ok && sqlite3_step(s) == SQLITE_ROW) {
-            const char *kind = (const char *)sqlite3_column_text(s, 0);
-            const char *name = (const char *)sqlite3_column_text(s, 2);
-            size_t i = (size_t)sqlite3_column_int64(s, 1);
-            bool variable = kind && strcmp(kind, "variable") == 0;
-            if (name && kind && i < (variable ? names->d : names->m))
-                ok = set_name(variable ? &names->variables[i] : &names->constraints[i], name);
-        }
-        sqlite3_finalize(s);
-    }
-    sqlite3_close(db);
-    return ok;
-}
-
-bool names_read(const char *store, const bayesopt *bo, struct names *names)
-{
-    char text[32];
     *names = (struct names){.d = bayesopt_dimension(bo, NULL, NULL),
                             .m = bayesopt_constraint_count(bo, NULL, NULL)};
     names->variables = calloc(names->d, sizeof *names->variables);
     names->constraints = calloc(names->m + 1, sizeof *names->constraints);
-    bool ok = names->variables && names->constraints;
-    for (size_t i = 0; i < names->d && ok; i++) {
-        snprintf(text, sizeof text, "x%zu", i + 1);
-        ok = set_name(&names->variables[i], text);
-    }
-    for (size_t i = 0; i < names->m && ok; i++) {
-        snprintf(text, sizeof text, "c%zu", i + 1);
-        ok = set_name(&names->constraints[i], text);
-    }
-    if (!ok)
-        cli_fail("out of memory");
-    ok = ok && read_table(store, names);
+    bool ok = (names->variables && names->constraints) || cli_refuse("out of memory");
+    for (size_t i = 0; i < names->d && ok; i++)
+        ok = read_name(bo, "variable", i, &names->variables[i]);
+    for (size_t i = 0; i < names->m && ok; i++)
+        ok = read_name(bo, "constraint", i, &names->constraints[i]);
     if (!ok)
         names_free(names);
     return ok;
@@ -118,14 +80,22 @@ void names_free(struct names *names)
     *names = (struct names){0};
 }
 
-bool store_open(const char *path, bayesopt **bo, struct names *names)
+static bool open_with_names(bayesopt_status status, bayesopt **bo, struct names *names)
 {
-    if (bayesopt_open(path, NULL, NULL, bo)) {
-        cli_fail("%s", bayesopt_last_error());
-        return false;
-    }
-    if (names_read(path, *bo, names))
+    if (status)
+        return failed();
+    if (names_read(*bo, names))
         return true;
     bayesopt_free(*bo);
     return false;
+}
+
+bool store_open(const char *path, bayesopt **bo, struct names *names)
+{
+    return open_with_names(bayesopt_open_read(path, bo), bo, names);
+}
+
+bool store_open_to_write(const char *path, bayesopt **bo, struct names *names)
+{
+    return open_with_names(bayesopt_open(path, NULL, NULL, bo), bo, names);
 }

@@ -1,4 +1,5 @@
-/* Names of variables and constraints, kept in the store's file in a table of the command's own. */
+/* What the command keeps in a store beside the history: names of variables and constraints, and
+ * what else must be the same when a study goes on. */
 #ifndef BAYESOPT_TOOL_NAMES_H
 #define BAYESOPT_TOOL_NAMES_H
 
@@ -13,13 +14,16 @@ struct names {
     char **constraints; /* [m] */
 };
 
-/* Writes the names if the store has none yet. Prints the sentence on failure. */
-bool names_write(const char *store, const struct names *names);
-/* Fills from the store; without a table x1, x2, ... and c1, c2, ... */
-bool names_read(const char *store, const bayesopt *bo, struct names *names);
+/* Keeps a text under a name, or refuses with the sentence if the store has another one there. */
+bool store_keep(bayesopt *bo, const char *what, const char *text);
+/* The same for all names. */
+bool names_keep(bayesopt *bo, const struct names *names);
+/* Fills from the store; what has no name there is called x1, x2, ... and c1, c2, ... */
+bool names_read(const bayesopt *bo, struct names *names);
 void names_free(struct names *names);
 
-/* Opens STORE as it is; prints the sentence on failure. */
+/* Opens STORE for looking, or as it is to be added to; prints the sentence on failure. */
 bool store_open(const char *path, bayesopt **bo, struct names *names);
+bool store_open_to_write(const char *path, bayesopt **bo, struct names *names);
 
 #endif

@@ -209,9 +209,7 @@ static int run(struct runner *r, const char *store, bool json)
     r->gradient = r->constraints + r->config.names.m;
     for (size_t i = 0; i < workers; i++)
         r->slots[i].x = r->x + i * d;
-    if (config_create(&r->config, store, &r->bo))
-        return cli_fail("%s", bayesopt_last_error());
-    if (!names_write(store, &r->config.names))
+    if (!config_create(&r->config, store, &r->bo))
         return CLI_FAILED;
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);

@@ -170,7 +170,7 @@ static int tell(const struct arguments *given, const char *store)
 {
     bayesopt *bo;
     struct names names;
-    if (!store_open(store, &bo, &names))
+    if (!store_open_to_write(store, &bo, &names))
         return CLI_FAILED;
     bool ok = given->table ? tell_table(bo, &names, given->table) : tell_one(bo, &names, given);
     if (ok && given->json) {
