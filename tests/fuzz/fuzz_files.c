@@ -1,6 +1,6 @@
 /* Damaged files: readers must answer with a status and a sentence, whatever the bytes. Valid files
- * are cut, overwritten, repeated and spliced by a fixed random stream, and IGES files also cut
- * behind and changed at every STEPth byte; the sanitizer build watches the memory. More:
+ * are cut, overwritten, repeated and spliced by a fixed random stream, and IGES and STEP files also
+ * cut behind and changed at every STEPth byte; the sanitizer build watches the memory. More:
  * FUZZ_ROUNDS=100000 fuzz_files, which also takes every byte. */
 #include "check.h"
 
@@ -75,8 +75,8 @@ static void check_reader(const char *path, int grid)
     nurbs_status status = NURBS_OK;
     if (grid)
         status = nurbs_grid_read(path, &points);
-    else if (strstr(path, ".igs"))
-        status = nurbs_patches_read_iges_untrimmed(path, 1e-2, &patches, report, sizeof report);
+    else if (strstr(path, ".igs") || strstr(path, ".step"))
+        status = nurbs_patches_read_reported(path, 1e-2, &patches, report, sizeof report);
     else
         status = nurbs_patches_read_json(path, &patches);
     if (status == NURBS_OK)
@@ -127,20 +127,21 @@ static void check_bytes(const char *path, size_t n, const char *bytes)
     check_reader(path, 0);
 }
 
-/* Every beginning of a file, and every byte replaced by those that mean something in IGES. */
-static void sweep(const char *source)
+/* Every beginning of a file, and every byte replaced by those that mean something in the format. */
+static void sweep(const char *source, const char *extension, const char instead[10])
 {
+    enum { CHOICES = 10 };
     static char original[LARGEST];
-    static const char instead[] = {'9', '-', ',', ';', 'H', ' ', '\n', 'D', '\0', (char)0xff};
     const char *folder = getenv("TMPDIR");
     size_t n = load(source, original), step = getenv("FUZZ_ROUNDS") ? 1 : STEP;
     char path[512];
-    snprintf(path, sizeof path, "%s/fuzz_sweep_%ld.igs", folder ? folder : "/tmp", (long)getpid());
+    snprintf(path, sizeof path, "%s/fuzz_sweep_%ld%s", folder ? folder : "/tmp", (long)getpid(),
+             extension);
     for (size_t k = 0; k < n; k += step) {
         char before = original[k];
         check_bytes(path, k, original);
-        for (size_t i = 0; i < sizeof instead; i++) {
-            original[k] = instead[step == 1 ? i : (k / step) % sizeof instead];
+        for (size_t i = 0; i < CHOICES; i++) {
+            original[k] = instead[step == 1 ? i : (k / step) % CHOICES];
             check_bytes(path, n, original);
             if (step > 1)
                 break;
@@ -154,11 +155,25 @@ static void test_iges_bytes(void)
 {
     static const char *const files[] = {"iges_trimmed_curved.igs", "iges_trimmed_face.igs",
                                         "iges_curves.igs",         "iges_transformed.igs",
-                                        "occt_trimmed_brep.igs",   "occt_rational.igs"};
+                                        "occt_trimmed_brep.igs",   "occt_rational.igs",
+                                        "occt_barge.igs"};
+    static const char instead[10] = {'9', '-', ',', ';', 'H', ' ', '\n', 'D', '\0', (char)0xff};
     for (size_t k = 0; k < sizeof files / sizeof *files; k++) {
         char path[512];
         snprintf(path, sizeof path, "%s/%s", TEST_DATA_DIR, files[k]);
-        sweep(path);
+        sweep(path, ".igs", instead);
+    }
+}
+
+static void test_step_bytes(void)
+{
+    static const char *const files[] = {"occt_barge_m.step", "occt_swept.step",
+                                        "occt_assembly.step"};
+    static const char instead[10] = {'9', '#', ',', ')', '(', '\'', '\n', '*', '\0', (char)0xff};
+    for (size_t k = 0; k < sizeof files / sizeof *files; k++) {
+        char path[512];
+        snprintf(path, sizeof path, "%s/%s", TEST_DATA_DIR, files[k]);
+        sweep(path, ".step", instead);
     }
 }
 
@@ -179,6 +194,12 @@ static void test_iges(void)
     nurbs_patches_free(patches);
     fuzz(path, ".igs", 0);
     unlink(path);
+}
+
+/* A damaged file may ask for long work, but for no other answer than a status. */
+static void test_step(void)
+{
+    fuzz(TEST_DATA_DIR "/occt_barge.step", ".step", 0);
 }
 
 static void test_grid(void)
@@ -204,6 +225,8 @@ static const struct check_case cases[] = {
     {"damaged NURBS files", test_json},
     {"damaged IGES files", test_iges},
     {"every byte of IGES files", test_iges_bytes},
+    {"damaged STEP files", test_step},
+    {"every byte of STEP files", test_step_bytes},
     {"damaged grids", test_grid},
 };
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # usage: test_iges_clients.sh NURBS SOURCE_DIR
-# IGES files of libnurbs in FreeCAD and gmsh (both read by Open CASCADE, which converts to
+# IGES and STEP files of libnurbs in FreeCAD and gmsh (both read by Open CASCADE, which converts to
 # millimetres) and FreeCAD's files back: the same degrees, poles, knots and weights. Exit 77 (skipped) when
 # neither program is installed: Debian packages gmsh and freecad-python3.
 set -u
@@ -24,7 +24,9 @@ fail() {
 cp "$source/examples/hulls/dtmb5415.json" dtmb5415.json
 bodies="wigley ellipsoid dtmb5415"
 for body in $bodies; do
-    "$nurbs" convert $body.json $body.igs || exit 1
+    for format in igs step; do
+        "$nurbs" convert $body.json $body.$format || exit 1
+    done
 done
 
 # read BODY: what FreeCAD finds in BODY.igs as BODY.freecad; BODY_back.igs is its own file of that.
@@ -33,8 +35,9 @@ import json
 import Part
 
 for body in "BODIES".split():
+  for kind in "igs", "step":
     shape = Part.Shape()
-    shape.read(body + ".igs")
+    shape.read(body + "." + kind)
     surfaces = []
     for face in shape.Faces:
         s = face.Surface
@@ -44,9 +47,12 @@ for body in "BODIES".split():
                          "points": [[p.x, p.y, p.z] for row in s.getPoles() for p in row],
                          "weights": [w for row in s.getWeights() for w in row],
                          "area": face.Area})
-    with open(body + ".freecad", "w") as out:
+    with open(body + "." + kind + ".freecad", "w") as out:
         json.dump(surfaces, out)
-    shape.exportIges(body + "_back.igs")
+    if kind == "igs":
+        shape.exportIges(body + "_back.igs")
+    else:
+        shape.exportStep(body + "_back.step")
 PY
 cat >compare.py <<'PY'
 import json
@@ -80,27 +86,31 @@ if [ -n "$freecad" ]; then
     sed -i "s/BODIES/$bodies/" read.py
     "$freecad" "$work/read.py" </dev/null >freecad.log 2>&1
     for body in $bodies; do
-        # Open CASCADE multiplies by 1000: one rounding of the coordinates.
-        python3 compare.py $body.json $body.freecad 1e-3 4e-16 ||
-            fail "FreeCAD reads other poles or knots from $body.igs"
-        "$nurbs" convert ${body}_back.igs ${body}_back.json 2>back.log || fail "$(cat back.log)"
-        # It writes nine to ten digits.
-        python3 compare.py $body.json ${body}_back.json 1 2e-9 ||
-            fail "FreeCAD's file of $body comes back with other poles or knots"
+        for format in igs step; do
+            # Open CASCADE multiplies by 1000: one rounding of the coordinates.
+            python3 compare.py $body.json $body.$format.freecad 1e-3 4e-16 ||
+                fail "FreeCAD reads other poles or knots from $body.$format"
+            "$nurbs" convert ${body}_back.$format ${body}_back.json 2>back.log || fail "$(cat back.log)"
+            # It writes nine to ten digits.
+            python3 compare.py $body.json ${body}_back.json 1 2e-9 ||
+                fail "FreeCAD's file $body.$format comes back with other poles or knots"
+        done
     done
 fi
 
 if [ -n "$gmsh" ]; then
     for body in $bodies; do
-        "$gmsh" -2 -clmax 400 -format msh2 -o $body.msh $body.igs >gmsh.log 2>&1 ||
-            fail "gmsh cannot mesh $body.igs: $(tail -3 gmsh.log)"
+      for format in igs step; do
+        "$gmsh" -2 -clmax 400 -format msh2 -o $body.msh $body.$format >gmsh.log 2>&1 ||
+            fail "gmsh cannot mesh $body.$format: $(tail -3 gmsh.log)"
         # gmsh tells no poles; but its nodes lie on the surface it read.
         { echo x,y,z; sed -n '/^\$Nodes/,/^\$EndNodes/p' $body.msh |
             awk 'NF == 4 { printf "%.17g,%.17g,%.17g\n", $2 / 1000, $3 / 1000, $4 / 1000 }'; } >nodes.csv
         [ "$(wc -l <nodes.csv)" -gt 20 ] || fail "gmsh makes too few nodes of $body"
         "$nurbs" closest $body.json --at nodes.csv >near.csv || fail "closest points of the nodes"
         awk -F, 'NR > 1 && $7 > 1e-7 { bad++ } END { exit bad > 0 }' near.csv ||
-            fail "gmsh's nodes are not on $body: $(sort -t, -gk7 near.csv | tail -1)"
+            fail "gmsh's nodes are not on $body.$format: $(sort -t, -gk7 near.csv | tail -1)"
+      done
     done
 fi
 

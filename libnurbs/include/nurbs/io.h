@@ -41,6 +41,25 @@ NURBS_API nurbs_status nurbs_patches_read_iges_untrimmed(const char *path, doubl
                                                          nurbs_patches **patches, char *report,
                                                          size_t report_size);
 
+/** STEP files (ISO 10303-21) of AP203, AP214 and AP242 in metres: the faces of solids, shells and
+ * surface models where assemblies (placed relationships, mapped items) put them, with the units of
+ * each representation. Surfaces: B-spline (rational, Bezier, uniform), plane, cylinder, cone,
+ * sphere, torus, extrusion, revolution, and exact offsets. Normals point as the faces say: out of a
+ * solid. Faces whose edges are parameter lines, and plane ones of three or four straight edges, are
+ * exact; others are resampled inside their loops, holes included, within the tolerance.
+ * @param tolerance  metres; 0: 1e-6 of the extent of each face
+ * @param report     fills what was resampled and with what deviation, and what was left out and
+ *                   why, with the number of the instance; NULL: not wanted
+ * Errors name line and instance. */
+NURBS_API nurbs_status nurbs_patches_read_step(const char *path, double tolerance,
+                                               nurbs_patches **patches, char *report,
+                                               size_t report_size);
+
+/** Writes the patches as faces of one open shell, AP214, in metres, with as many digits as restore
+ * every bit: each its own surface between its own edges; a closed patch has a seam, a collapsed
+ * edge none. */
+NURBS_API nurbs_status nurbs_patches_write_step(const nurbs_patches *patches, const char *path);
+
 /** Curves of an IGES file in metres: entities 126 (B-spline), 110 (line) and 100 (circular arc,
  * exact as a rational quadratic), and the parts of composite curves 102 in their order. Curves that
  * only serve another entity (physically dependent) are left out.
@@ -59,7 +78,8 @@ NURBS_API nurbs_status nurbs_patches_write_vtu(const nurbs_patches *patches, int
 /** Control points of all patches: CSV with header patch,i,j,x,y,z,weight (counted from 0). */
 NURBS_API nurbs_status nurbs_patches_write_points(const nurbs_patches *patches, const char *path);
 
-/** By extension: .json .igs .iges for reading; also .stl .vtu .csv (control points) for writing. */
+/** By extension: .json .igs .iges .step .stp for reading; also .stl .vtu .csv (control points) for
+ * writing. */
 NURBS_API nurbs_status nurbs_patches_read(const char *path, nurbs_patches **patches);
 
 /** The same, and tells what the reader changed, kept whole or left out.

@@ -469,7 +469,7 @@ nurbs_status face_patches(const cad_face *f, double tolerance, nurbs_patches *pa
     nurbs_status status = nurbs_patches_create(&made);
     if (status == NURBS_OK)
         status = make_patches(&c, tolerance, made, outcome);
-    for (size_t k = 0; k < nurbs_patches_count(made) && status == NURBS_OK; k++) {
+    for (size_t k = 0; status == NURBS_OK && k < nurbs_patches_count(made); k++) {
         nurbs_surface *turned = NULL;
         if (f->reversed)
             status = nurbs_surface_swap(nurbs_patches_get(made, k), &turned);

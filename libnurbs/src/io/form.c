@@ -116,13 +116,13 @@ static void widest(const nurbs_curve *profile, const double origin[3], const dou
     }
 }
 
-/* A profile that is one straight line in the frame's half plane gives a cylinder or a cone. */
+/* A profile that is one straight line in the frame's half plane gives a cylinder or a cone, or a
+ * plane across the axis. Radii grow and heights rise along the natural parameters. */
 static bool straight_profile(cad_form *f, const nurbs_curve *profile)
 {
     const double *p = nurbs_curve_points(profile);
-    size_t n = nurbs_curve_size(profile);
-    double d[3], r[2], h[2], low, high;
-    if (nurbs_curve_degree(profile) != 1 || n != 2)
+    double d[3], r[2], h[2];
+    if (nurbs_curve_degree(profile) != 1 || nurbs_curve_size(profile) != 2)
         return false;
     for (size_t k = 0; k < 2; k++) {
         minus3(p + 3 * k, f->origin, d);
@@ -130,14 +130,42 @@ static bool straight_profile(cad_form *f, const nurbs_curve *profile)
         h[k] = dot3(d, f->frame[2]);
     }
     double length = hypot(r[1] - r[0], h[1] - h[0]);
-    curve_domain(profile, &low, &high);
-    if (!(length > 0) || fabs(h[1] - h[0]) < 1e-6 * length)
-        return false; /* a disc: its radius is no function of the height */
-    if (h[1] < h[0])
+    if (!(length > 0))
+        return false;
+    if (fabs(h[1] - h[0]) < 1e-9 * length) {
+        double normal[3], at[3];
+        along3(f->origin, h[0], f->frame[2], at);
+        for (int c = 0; c < 3; c++)
+            normal[c] = r[1] > r[0] ? -f->frame[2][c] : f->frame[2][c];
+        form_frame(f, at, normal, f->frame[0]);
+        form_plane(f);
+        return true;
+    }
+    f->flipped = h[1] < h[0];
+    if (f->flipped)
         length = -length;
     double sine = (r[1] - r[0]) / length, cosine = (h[1] - h[0]) / length;
     form_cone(f, r[0] - h[0] * sine / cosine, atan2(sine, cosine));
     return true;
+}
+
+/* A profile on both sides of the axis would give every point of the surface twice. */
+static nurbs_status check_side(const cad_form *f, const nurbs_curve *profile, double slack)
+{
+    enum { PLACES = 8 };
+    double low, high;
+    curve_domain(profile, &low, &high);
+    size_t n = PLACES * nurbs_curve_size(profile);
+    for (size_t k = 0; k <= n; k++) {
+        double t = k == n ? high : low + (high - low) * (double)k / (double)n, p[3], q[3];
+        nurbs_status status = nurbs_curve_eval(profile, 0, 1, &t, p);
+        if (status != NURBS_OK)
+            return status;
+        minus3(p, f->origin, q);
+        if (dot3(q, f->frame[0]) < -slack)
+            return nurbs_fail(NURBS_ERROR_GEOMETRY, "its generatrix crosses its axis");
+    }
+    return NURBS_OK;
 }
 
 nurbs_status form_revolved(cad_form *f, const double origin[3], const double axis[3],
@@ -154,12 +182,15 @@ nurbs_status form_revolved(cad_form *f, const double origin[3], const double axi
     for (size_t k = 0; k < nurbs_curve_size(profile); k++) {
         double q[3];
         minus3(p + 3 * k, origin, q);
-        if (fabs(dot3(q, f->frame[1])) > 1e-6 * size || dot3(q, f->frame[0]) < -1e-6 * size)
+        if (fabs(dot3(q, f->frame[1])) > 1e-6 * size)
             return nurbs_fail(NURBS_ERROR_GEOMETRY,
-                              "its generatrix does not lie in a half plane from its axis");
+                              "its generatrix does not lie in a plane with its axis");
     }
     if (straight_profile(f, profile))
         return NURBS_OK;
+    nurbs_status crosses = check_side(f, profile, 1e-6 * size);
+    if (crosses != NURBS_OK)
+        return crosses;
     /* Radius, 0, height as x, y, z. */
     memcpy(matrix, f->frame[0], sizeof f->frame[0]);
     memset(matrix + 3, 0, sizeof f->frame[1]);

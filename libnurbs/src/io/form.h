@@ -46,6 +46,7 @@ typedef struct cad_form {
     struct nurbs_locator *locator;
     double low[2], high[2]; /* limits of the natural parameters; infinite where there are none */
     double period[2];       /* 0: not periodic */
+    bool flipped;           /* the natural parameters turn the other way than the file's */
 } cad_form;
 
 /* z along `axis`, x near `reference`; axis and reference need no unit length. */

@@ -138,7 +138,7 @@ static nurbs_status spread_blank(iges_file *file)
 static nurbs_status place_patches(const nurbs_patches *from, const placement *at, nurbs_patches *to)
 {
     nurbs_status status = NURBS_OK;
-    for (size_t k = 0; k < nurbs_patches_count(from) && status == NURBS_OK; k++) {
+    for (size_t k = 0; status == NURBS_OK && k < nurbs_patches_count(from); k++) {
         nurbs_surface *moved;
         status = nurbs_surface_transform(nurbs_patches_get(from, k), at->matrix, at->shift, &moved);
         if (status == NURBS_OK)

@@ -129,7 +129,7 @@ static nurbs_status untrim_loops(const nurbs_surface *surface, const iges_face *
 static nurbs_status keep_for_base(scope_work *work, size_t surface, const nurbs_patches *made)
 {
     nurbs_status status = NURBS_OK;
-    for (size_t k = 0; k < nurbs_patches_count(made) && status == NURBS_OK; k++) {
+    for (size_t k = 0; status == NURBS_OK && k < nurbs_patches_count(made); k++) {
         size_t at = nurbs_patches_count(work->patches);
         if (at == work->base_room) {
             size_t room = at ? 2 * at : 16, *larger = realloc(work->base, room * sizeof *larger);
@@ -248,7 +248,7 @@ static nurbs_status space_face(scope_work *work, size_t entity, nurbs_patches *p
         status = face_patches(&f, tolerance, made, &outcome);
     if (status == NURBS_OK)
         status = iges_transformation(file, entity, matrix, shift);
-    for (size_t k = 0; k < nurbs_patches_count(made) && status == NURBS_OK; k++) {
+    for (size_t k = 0; status == NURBS_OK && k < nurbs_patches_count(made); k++) {
         nurbs_surface *moved = NULL;
         /* The transformation of a plane 108 is in its form already. */
         if (is_face && file->entity[entity].transformation > 0)
@@ -312,7 +312,7 @@ static nurbs_status keep_spline(scope_work *work, size_t entity, nurbs_patches *
         return status;
     }
     work->tally->resampled++;
-    for (size_t k = 0; k < nurbs_patches_count(work->patches) && status == NURBS_OK; k++)
+    for (size_t k = 0; status == NURBS_OK && k < nurbs_patches_count(work->patches); k++)
         if (work->base[k] == entity)
             status = nurbs_patches_add(patches, nurbs_patches_get(work->patches, k));
     return status;

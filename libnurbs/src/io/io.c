@@ -30,7 +30,10 @@ nurbs_status nurbs_patches_read_reported(const char *path, double tolerance,
         return nurbs_patches_read_json(path, patches);
     if (has_extension(path, ".igs") || has_extension(path, ".iges"))
         return nurbs_patches_read_iges_untrimmed(path, tolerance, patches, report, report_size);
-    return nurbs_fail(NURBS_ERROR_ARGUMENT, "%s: read are .json, .igs and .iges", path);
+    if (has_extension(path, ".step") || has_extension(path, ".stp"))
+        return nurbs_patches_read_step(path, tolerance, patches, report, report_size);
+    return nurbs_fail(NURBS_ERROR_ARGUMENT, "%s: read are .json, .igs, .iges, .step and .stp",
+                      path);
 }
 
 nurbs_status nurbs_patches_read(const char *path, nurbs_patches **patches)
@@ -44,6 +47,8 @@ nurbs_status nurbs_patches_write(const nurbs_patches *patches, const char *path)
         return nurbs_patches_write_json(patches, path);
     if (has_extension(path, ".igs") || has_extension(path, ".iges"))
         return nurbs_patches_write_iges(patches, path);
+    if (has_extension(path, ".step") || has_extension(path, ".stp"))
+        return nurbs_patches_write_step(patches, path);
     if (has_extension(path, ".stl"))
         return nurbs_patches_write_stl(patches, LOOKING_PARTS, path);
     if (has_extension(path, ".vtu"))
@@ -51,5 +56,7 @@ nurbs_status nurbs_patches_write(const nurbs_patches *patches, const char *path)
     if (has_extension(path, ".csv"))
         return nurbs_patches_write_points(patches, path);
     return nurbs_fail(NURBS_ERROR_ARGUMENT,
-                      "%s: written are .json, .igs, .iges, .stl, .vtu and .csv", path);
+                      "%s: written are .json, .igs, .iges, .step, .stp, .stl, .vtu and "
+                      ".csv",
+                      path);
 }

@@ -15,8 +15,12 @@ enum { SAMPLES = 12, MOST_CORNERS = 10, MOST_DEPTH = 12, MOST_TRIES = 3, GRID = 
  * angle that opens to a straight one leaves about 0.08 on this grid. */
 static const double least_quality = 0.02;
 
-/* Reflex corners are the places at which a loop wants to be divided: a chord from one counts as
- * shorter by this factor. */
+/* A side may bend by no more at one place (radians): about a sharper corner inside a side the map
+ * folds in a stretch that a grid easily misses. */
+static const double most_bend = 1.05;
+
+/* Hollow places are those at which a loop wants to be divided: a chord from one counts as shorter
+ * by this factor. */
 static const double reflex_favour = 0.5;
 
 /* A chord leaves the loop's edges by at least this angle (radians). */
@@ -162,11 +166,21 @@ typedef struct choice {
     double quality;
 } choice;
 
+/* Whether every sharp corner is one of the four. */
+static bool takes_sharp_corners(const trim_loop *loop, const size_t corner[4])
+{
+    for (size_t k = 0; k < loop->count; k++)
+        if (fabs(loop->part[k].turn) > most_bend && k != corner[0] && k != corner[1] &&
+            k != corner[2] && k != corner[3])
+            return false;
+    return true;
+}
+
 static void keep_choice(trim_loop *loop, const size_t corner[4], choice best[MOST_TRIES])
 {
     choice c = {.quality = -1};
     memcpy(c.corner, corner, sizeof c.corner);
-    if (trim_loop_sides(loop, corner) == NURBS_OK)
+    if (takes_sharp_corners(loop, corner) && trim_loop_sides(loop, corner) == NURBS_OK)
         c.quality = quality(loop);
     for (int k = 0; k < MOST_TRIES; k++)
         if (c.quality > best[k].quality) {
@@ -286,7 +300,28 @@ static bool leaves_inside(size_t n, const double *xy, size_t i, size_t j)
     return chord > least && chord < inside - least;
 }
 
-/* The chord that divides best: joints behind parts i and j. */
+/* Twice the area between the polygon from vertex i on to j and the chord back. */
+static double area_cut(size_t n, const double *xy, size_t i, size_t j)
+{
+    double area = 0;
+    for (size_t k = i; k != j; k = (k + 1) % n) {
+        const double *a = xy + 2 * k, *b = xy + 2 * ((k + 1) % n);
+        area += a[0] * b[1] - b[0] * a[1];
+    }
+    return area + xy[2 * j] * xy[2 * i + 1] - xy[2 * i] * xy[2 * j + 1];
+}
+
+/* Whether the polygon bends away from the inside about vertex i: a reflex corner, or the middle of
+ * a hollow curve. */
+static bool hollow(size_t n, const double *xy, size_t i)
+{
+    const double *a = xy + 2 * i, *next = xy + 2 * ((i + SAMPLES / 2) % n),
+                 *before = xy + 2 * ((i + n - SAMPLES / 2) % n);
+    return angle_between(a, next, before) > 3.14159265358979323846 + least_angle;
+}
+
+/* The chord that divides best, joints behind parts i and j: short for the area it divides, so that
+ * it cuts no corners off. */
 static bool find_chord(const trim_loop *loop, const double *xy, size_t *i, size_t *j)
 {
     size_t n = loop->count * SAMPLES;
@@ -294,11 +329,14 @@ static bool find_chord(const trim_loop *loop, const double *xy, size_t *i, size_
     for (size_t a = 0; a < loop->count; a++)
         for (size_t b = a + 1; b < loop->count; b++) {
             size_t p = (a + 1) % loop->count * SAMPLES, q = (b + 1) % loop->count * SAMPLES;
-            double score = hypot(xy[2 * p] - xy[2 * q], xy[2 * p + 1] - xy[2 * q + 1]);
-            score *= (loop->part[a].turn < -least_angle ? reflex_favour : 1) *
-                     (loop->part[b].turn < -least_angle ? reflex_favour : 1);
-            if (score >= best || score == 0 || !leaves_inside(n, xy, p, q) ||
-                !leaves_inside(n, xy, q, p) || crosses(n, xy, p, q))
+            double length = hypot(xy[2 * p] - xy[2 * q], xy[2 * p + 1] - xy[2 * q + 1]),
+                   area = fmin(area_cut(n, xy, p, q), area_cut(n, xy, q, p));
+            if (!(area > 0 && length > 0))
+                continue;
+            double score = length / sqrt(area) * (hollow(n, xy, p) ? reflex_favour : 1) *
+                           (hollow(n, xy, q) ? reflex_favour : 1);
+            if (score >= best || !leaves_inside(n, xy, p, q) || !leaves_inside(n, xy, q, p) ||
+                crosses(n, xy, p, q))
                 continue;
             best = score;
             *i = a;
@@ -479,7 +517,7 @@ nurbs_status nurbs_surface_untrim_parts(const nurbs_surface *surface, size_t loo
         status = join_holes(loops, opened);
     if (status == NURBS_OK)
         status = divide(&work, &opened[0], 0);
-    for (size_t k = 0; k < nurbs_patches_count(work.patches) && status == NURBS_OK; k++)
+    for (size_t k = 0; status == NURBS_OK && k < nurbs_patches_count(work.patches); k++)
         status = nurbs_patches_add(patches, nurbs_patches_get(work.patches, k));
     if (status == NURBS_OK && deviation)
         *deviation = work.deviation;

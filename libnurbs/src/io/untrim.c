@@ -84,6 +84,23 @@ static nurbs_status section_points(void *context, double s, size_t n, const doub
     return status;
 }
 
+/* Twice the area of a triangle in the parameter plane, positive when counterclockwise. */
+static double triangle(const double a[2], const double b[2], const double c[2])
+{
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+/* Whether a cell a, b, c, d keeps its orientation at all four corners. At a corner of the map it is
+ * enough that the cell as a whole does: the angle there may be straight. */
+static bool cell_keeps_side(const double *a, const double *b, const double *c, const double *d,
+                            bool at_corner)
+{
+    if (at_corner)
+        return triangle(a, b, c) + triangle(a, c, d) > 0;
+    return triangle(a, b, d) > 0 && triangle(b, c, a) > 0 && triangle(c, d, b) > 0 &&
+           triangle(d, a, c) > 0;
+}
+
 /* Every cell of a fine net keeps its orientation. */
 static nurbs_status check_map(work *w)
 {
@@ -96,7 +113,7 @@ static nurbs_status check_map(work *w)
         const double *a = uv[(i + 1) % 2], *b = uv[i % 2];
         status = plane_points(w, t[i], N + 1, t, uv[i % 2]);
         for (int k = 0; k < N && status == NURBS_OK; k++, a += 2, b += 2)
-            if (!((b[0] - a[0]) * (a[3] - a[1]) - (b[1] - a[1]) * (a[2] - a[0]) > 0))
+            if (!cell_keeps_side(a, b, b + 2, a + 2, (i == 1 || i == N) && (k == 0 || k == N - 1)))
                 status = nurbs_fail(NURBS_ERROR_GEOMETRY,
                                     "the four sides of its loop give a map that folds at "
                                     "u = %.6g, v = %.6g",
