@@ -1,5 +1,5 @@
+#include "plot/plot.h"
 #include "report_parts.h"
-#include "report/svg.h"
 
 #include <math.h>
 
@@ -41,9 +41,9 @@ static const char STYLE[] =
 static void card(FILE *out, const char *value, const char *label)
 {
     fputs("<div class=\"card\"><b>", out);
-    svg_escape(out, value);
+    plot_escape(out, value);
     fputs("</b><span>", out);
-    svg_escape(out, label);
+    plot_escape(out, label);
     fputs("</span></div>\n", out);
 }
 
@@ -93,8 +93,8 @@ static void verdict(FILE *out, const struct results *r)
     if (r->n_rows == 0)
         tone = "some";
     fprintf(out, "<div class=\"verdict %s\">", tone);
-    svg_escape(out, r->n_rows ? v->statement
-                              : "The run is not finished: the optimum has not been verified yet.");
+    plot_escape(out, r->n_rows ? v->statement
+                               : "The run is not finished: the optimum has not been verified yet.");
     fputs("</div>\n", out);
 }
 
@@ -106,9 +106,9 @@ void report_head(FILE *out, const struct results *r)
     fputs("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
           "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>",
           out);
-    svg_escape(out, name);
+    plot_escape(out, name);
     fprintf(out, "</title>\n%s</head><body><main>\n<h1>", STYLE);
-    svg_escape(out, name);
+    plot_escape(out, name);
     fprintf(out, "</h1>\n<p class=\"sub\">hullopt %s · Fr %g · %s · length %.4g m%s</p>\n",
             TOOL_VERSION, results_number(r->settings, "flow.froude"), formulation, r->parent.length,
             r->complete ? "" : " · run not finished");

@@ -1,7 +1,7 @@
 #include "entrance.h"
 #include "particulars.h"
+#include "plot/plot.h"
 #include "report_parts.h"
-#include "report/svg.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -136,7 +136,7 @@ void report_failures(FILE *out, const struct results *r)
         if (!e->failed)
             continue;
         fprintf(out, "<tr><td>%llu</td><td>%s</td><td>", (unsigned long long)e->id, e->stage);
-        svg_escape(out, e->reason);
+        plot_escape(out, e->reason);
         fputs("</td></tr>\n", out);
         shown++;
     }
@@ -191,7 +191,7 @@ void report_verification(FILE *out, const struct results *r)
         fputs("</tr>\n", out);
         if (*v->note) {
             fputs("<tr><td colspan=\"9\" class=\"note\">", out);
-            svg_escape(out, v->note);
+            plot_escape(out, v->note);
             fputs("</td></tr>\n", out);
         }
     }
@@ -207,7 +207,7 @@ static void setting_rows(FILE *out, const char *text)
             char value[500];
             snprintf(value, sizeof value, "%.*s", (int)(line + length - equals - 2), equals + 2);
             fprintf(out, "<tr><td><code>%.*s</code></td><td>", (int)(equals - line), line);
-            svg_escape(out, value);
+            plot_escape(out, value);
             fputs("</td></tr>\n", out);
         }
         line += length + (line[length] == '\n');

@@ -52,7 +52,7 @@ void plot_bar(struct plot *plot, double x, double y, double width, double height
                 y + height * (1 - (k + 1.0) / STEPS), width, height / STEPS + 0.3, colour);
     }
     fputs("</g>\n", plot->out);
-    size_t n = plot_ticks(&scale->axis, (int)fmax(3, height / 30), value, text);
+    size_t n = plot_ticks(&scale->axis, (int)fmin(fmax(3, height / 30), 12), value, text);
     for (size_t k = 0; k < n; k++) {
         double at = plot_y(&f, value[k]);
         plot_line(plot, x + width, at, x + width + 4, at, (struct plot_pen){PLOT_MUTED, 1, NULL});

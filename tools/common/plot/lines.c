@@ -265,7 +265,7 @@ static bool put_body_plan(const struct plan *plan, const struct view *view)
             put_ruler(plan, view, true, k < 0 ? 0 : side * y, plan->low[2], plan->high[2],
                       k < 0 ? base_pen : grid_pen);
     for (size_t h = 0; h < plan->n; h++)
-        /* From midship outwards: the ends of the outer sections stand clear of those before. */
+        /* From the ends towards midship, where numbers are crowded and give way. */
         for (size_t k = 0; k <= 2 * stations + 1; k++) {
             size_t half = k / 2, number = k % 2 ? stations - half : half;
             double side = k % 2 ? 1 : -1;

@@ -104,7 +104,7 @@ void plot_history(struct plot *plot, double left, double top, double width, doub
     draw_trials(plot, &f, h);
     if (infeasible)
         legend[entries++] =
-            (struct plot_legend){"outside the limits", {PLOT_BLUE, 0, NULL}, PLOT_RING};
+            (struct plot_legend){"outside the limits", {PLOT_MUTED, 0, NULL}, PLOT_RING};
     if (failed)
         legend[entries++] = (struct plot_legend){"failed", {PLOT_RED, 0, NULL}, PLOT_CROSS};
     plot_legend(plot, f.left, top + 18, false, entries, legend);

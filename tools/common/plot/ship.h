@@ -69,7 +69,7 @@ void plot_error(struct plot *plot, double left, double top, double width, double
 struct plot_trial {
     double number, value;
     bool initial, infeasible, failed;
-    char note[120];
+    char note[288];
 };
 struct plot_history {
     size_t n;

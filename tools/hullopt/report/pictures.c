@@ -1,0 +1,269 @@
+#include "report/pictures.h"
+
+#include "outcome.h"
+#include "plot/ship.h"
+#include "stations.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Units of the sheets are pixels of the page at its full width. */
+enum { FULL = 1120, HALF = 550, CUT = 280, AREAS = 280, HULL = 210, CURVES = 290 };
+
+static const struct plot_pen pens[2] = {{PLOT_ORIGINAL, 1.1, "5 3"}, {PLOT_OPTIMUM, 1.1, NULL}};
+static const struct plot_legend legend[2] = {{"original", {PLOT_ORIGINAL, 2, "5 3"}, PLOT_LINE},
+                                             {"optimum", {PLOT_OPTIMUM, 2, NULL}, PLOT_LINE}};
+
+void draw_history(FILE *out, const struct results *r)
+{
+    enum { HEIGHT = 400 };
+    struct plot plot;
+    struct plot_trial *trials = calloc(r->n + 1, sizeof *trials);
+    for (size_t i = 0; trials && i < r->n; i++) {
+        const struct evaluation *e = &r->evaluations[i];
+        struct plot_trial *t = &trials[i];
+        t->number = (double)i;
+        t->value = e->cw;
+        t->initial = strcmp(e->phase, "initial") == 0 || e->id == 0;
+        t->failed = e->failed;
+        t->infeasible = !outcome_allowed(&r->limits, e, r->baseline);
+        if (e->failed)
+            snprintf(t->note, sizeof t->note, "%llu: %s", (unsigned long long)e->id, e->reason);
+        else
+            snprintf(t->note, sizeof t->note, "%llu: C_w %.4e, displacement %+.2f %%",
+                     (unsigned long long)e->id, e->cw, 100 * (e->volume_ratio - 1));
+    }
+    const struct plot_history history = {r->n, trials, r->baseline->cw, 1000, "10³ C_{w}"};
+    if (trials && plot_open(&plot, FULL, HEIGHT, "History of the search")) {
+        plot_history(&plot, 0, 0, FULL, HEIGHT, &history);
+        plot_embed(&plot, out);
+    }
+    free(trials);
+}
+
+static struct plot_hull hull_of(const struct results *r, int which, const nurbs_surface **surface)
+{
+    *surface = r->designs[which].full;
+    return (struct plot_hull){legend[which].text, 1, surface, pens[which]};
+}
+
+void draw_lines(FILE *out, const struct results *r)
+{
+    const nurbs_surface *surface[2];
+    const struct plot_hull hulls[2] = {hull_of(r, 0, &surface[0]), hull_of(r, 1, &surface[1])};
+    const struct plot_lines lines = {r->parent.length, 0, 20, 8, 3};
+    struct plot plot;
+    if (plot_lines_plan(&plot, FULL, &lines, 2, hulls))
+        plot_embed(&plot, out);
+}
+
+/* Areas below the still water at n stations x. */
+static bool fill_areas(const nurbs_surface *surface, size_t n, const double *x, double *area)
+{
+    struct stations s;
+    if (!stations_create(surface, &s))
+        return false;
+    double(*yz)[2] = malloc(s.nv * sizeof *yz);
+    for (size_t k = 0; yz && k < n; k++)
+        area[k] =
+            stations_section(&s, x[k], yz) < 2 ? 0 : stations_area(s.nv, (const double(*)[2])yz);
+    bool good = yz != NULL;
+    free(yz);
+    stations_free(&s);
+    return good;
+}
+
+void draw_section_areas(FILE *out, const struct results *r)
+{
+    enum { N = 141 };
+    const nurbs_surface *surface;
+    const struct plot_hull hull = hull_of(r, 0, &surface);
+    struct plot_frame f = {.left = 62, .top = 34, .width = HALF - 76, .height = AREAS - 80};
+    double end[2], x[N], station[N], area[2][N];
+    struct plot plot;
+    if (!plot_perpendiculars(&hull, 0, r->parent.length, end))
+        return;
+    for (size_t k = 0; k < N; k++) {
+        station[k] = -1 + 22.0 * (double)k / (N - 1);
+        x[k] = end[0] + (end[1] - end[0]) * station[k] / 20;
+    }
+    f.x = (struct plot_axis){.low = -1, .high = 21, .whole = true, .label = "station"};
+    f.y = (struct plot_axis){.low = 0, .high = -INFINITY, .label = "section area, m²"};
+    for (int k = 0; k < 2; k++) {
+        if (!fill_areas(r->designs[k].wetted, N, x, area[k]))
+            return;
+        plot_include(&f.y, N, area[k]);
+    }
+    f.y.high *= 1.05;
+    if (!plot_open(&plot, HALF, AREAS, "Sectional areas below the still water"))
+        return;
+    plot_axes(&plot, &f);
+    for (int k = 0; k < 2; k++)
+        plot_curve(&plot, &f, N, station, area[k], legend[k].pen);
+    plot_legend(&plot, f.left, 20, false, 2, legend);
+    plot_embed(&plot, out);
+}
+
+static void draw_hull(FILE *out, const char *title, const struct plot_view *view)
+{
+    struct plot plot;
+    if (!plot_open(&plot, HALF, HULL, title))
+        return;
+    plot_text(&plot, 4, 15, 13, PLOT_START, PLOT_INK, "%s", title);
+    plot_hull_view(&plot, 4, 24, HALF - 8, HULL - 30, view);
+    plot_embed(&plot, out);
+}
+
+void draw_original(FILE *out, const struct results *r)
+{
+    const struct plot_view view = {.rows = nurbs_grid_rows(r->parent.grid),
+                                   .columns = nurbs_grid_columns(r->parent.grid),
+                                   .points = nurbs_grid_points(r->parent.grid)};
+    draw_hull(out, "Original", &view);
+}
+
+void draw_optimum(FILE *out, const struct results *r)
+{
+    size_t n = r->latent.coordinates, points = n / 3;
+    double *moved = malloc(n * sizeof *moved), *change = malloc(points * sizeof *change), most = 0;
+    const double *parent = nurbs_grid_points(r->parent.grid);
+    if (moved && change) {
+        latent_displace(&r->latent, r->best->u, moved);
+        for (size_t k = 0; k < points; k++) {
+            const double *d = moved + 3 * k;
+            double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+            change[k] = d[1] < 0 ? -length : length;
+            most = fmax(most, length);
+        }
+        for (size_t k = 0; k < n; k++)
+            moved[k] += parent[k];
+        const struct plot_view view = {
+            nurbs_grid_rows(r->parent.grid),
+            nurbs_grid_columns(r->parent.grid),
+            moved,
+            most > 0 ? change : NULL,
+            {PLOT_DIVERGING, {.low = -most, .high = most, .unit = 1000, .label = "outwards, mm"}}};
+        draw_hull(out, "Optimum", &view);
+    }
+    free(moved);
+    free(change);
+}
+
+static struct plot_latent latent_of(const struct results *r)
+{
+    const struct latent *l = &r->latent;
+    return (struct plot_latent){l->modes,
+                                l->spectrum,
+                                l->parameters,
+                                l->eigenvalues,
+                                l->mse,
+                                l->trace,
+                                results_number(r->settings, "latent.variance")};
+}
+
+static void draw_latent(FILE *out, const char *title, const struct results *r,
+                        void (*draw)(struct plot *, double, double, double, double,
+                                     const struct plot_latent *))
+{
+    struct plot plot;
+    const struct plot_latent latent = latent_of(r);
+    if (!plot_open(&plot, HALF, CURVES, title))
+        return;
+    draw(&plot, 0, 14, HALF, CURVES - 14, &latent);
+    plot_embed(&plot, out);
+}
+
+void draw_variance(FILE *out, const struct results *r)
+{
+    draw_latent(out, "Geometric variance retained against the number of modes", r, plot_variance);
+}
+
+void draw_error(FILE *out, const struct results *r)
+{
+    draw_latent(out, "Mean square error of the reconstruction", r, plot_error);
+}
+
+void draw_mode(FILE *out, const struct results *r, size_t mode)
+{
+    struct plot plot;
+    char title[32];
+    const struct plot_mode shown = {mode + 1,
+                                    nurbs_grid_rows(r->parent.grid),
+                                    nurbs_grid_columns(r->parent.grid),
+                                    nurbs_grid_points(r->parent.grid),
+                                    r->latent.vectors + mode * r->latent.coordinates,
+                                    r->latent.eigenvalues[mode],
+                                    r->latent.trace};
+    snprintf(title, sizeof title, "Mode %zu", mode + 1);
+    if (!plot_open(&plot, HALF, HULL, title))
+        return;
+    plot_mode_view(&plot, 4, 0, HALF - 8, HULL - 6, &shown);
+    plot_embed(&plot, out);
+}
+
+enum { OUTLINE = 161 };
+
+/* Half of the waterplane, from the edge v = 0 of the wetted surface. */
+static struct plot_waves waves_of(const struct results *r, int which, double edge[OUTLINE][2])
+{
+    const struct waves *w = &r->waves[which && r->waves[1].elevation];
+    const nurbs_surface *wetted = r->designs[which].wetted;
+    const double *ku = nurbs_surface_knots(wetted, 0), *kv = nurbs_surface_knots(wetted, 1);
+    double first = ku[nurbs_surface_degree(wetted, 0)], last = ku[nurbs_surface_size(wetted, 0)];
+    double uv[OUTLINE][2], xyz[OUTLINE][3];
+    for (size_t k = 0; k < OUTLINE; k++) {
+        uv[k][0] = k + 1 == OUTLINE ? last : first + (last - first) * (double)k / (OUTLINE - 1);
+        uv[k][1] = kv[0];
+    }
+    bool known = nurbs_surface_eval(wetted, 0, OUTLINE, uv[0], xyz[0]) == NURBS_OK;
+    for (size_t k = 0; k < OUTLINE && known; k++) {
+        edge[k][0] = xyz[k][0];
+        edge[k][1] = xyz[k][1];
+    }
+    return (struct plot_waves){
+        legend[which].text, w->nx,  w->ny, known ? OUTLINE : 0, w->x0, w->dx, w->y0, w->dy,
+        w->elevation,       edge[0]};
+}
+
+void draw_waves(FILE *out, const struct results *r)
+{
+    double edge[2][OUTLINE][2];
+    const struct plot_waves waves[2] = {waves_of(r, 0, edge[0]), waves_of(r, 1, edge[1])};
+    struct plot plot;
+    if (plot_wave_pattern(&plot, FULL, 2, waves))
+        plot_embed(&plot, out);
+}
+
+void draw_wave_cut(FILE *out, const struct results *r, double share)
+{
+    double edge[OUTLINE][2];
+    const struct plot_waves waves[2] = {waves_of(r, 0, edge), waves_of(r, 1, edge)};
+    size_t n = waves->nx;
+    struct plot_frame f = {.left = 66, .top = 34, .width = FULL - 66 - 96, .height = CUT - 80};
+    double *x = malloc(3 * n * sizeof *x);
+    struct plot plot;
+    if (!x || !plot_open(&plot, FULL, CUT, "Longitudinal wave cut")) {
+        free(x);
+        return;
+    }
+    f.x = (struct plot_axis){.low = waves->x0,
+                             .high = waves->x0 + (double)(n - 1) * waves->dx,
+                             .label = "x, m (forward to the right)"};
+    f.y = (struct plot_axis){
+        .low = INFINITY, .high = -INFINITY, .unit = 1000, .label = "elevation, mm"};
+    for (size_t i = 0; i < n; i++) {
+        x[i] = waves->x0 + (double)i * waves->dx;
+        for (size_t k = 0; k < 2; k++)
+            x[(k + 1) * n + i] = plot_wave_at(&waves[k], x[i], share * r->parent.length);
+    }
+    plot_include(&f.y, 2 * n, x + n);
+    plot_nice(&f.y, 4);
+    plot_axes(&plot, &f);
+    for (size_t k = 0; k < 2; k++)
+        if (r->waves[k].elevation)
+            plot_curve(&plot, &f, n, x, x + (k + 1) * n, legend[k].pen);
+    plot_legend(&plot, f.left, 20, false, 2, legend);
+    plot_embed(&plot, out);
+    free(x);
+}
