@@ -70,11 +70,10 @@ expect 0 "$tool" export run.db -o history.csv
 [ "$(wc -l <history.csv)" -eq 31 ] || fail "export has $(wc -l <history.csv) lines"
 head -n 1 history.csv | grep -q 'id,phase,state,level,a,b,f,sum,feasible,note' || fail "header"
 expect 0 "$tool" export run.db --json
-if command -v gnuplot >/dev/null; then
-    expect 0 "$tool" plot run.db -o history.svg
-    expect 0 "$tool" plot run.db --slices -o slices.svg
-    grep -q '</svg>' history.svg && grep -q '</svg>' slices.svg || fail "pictures"
-fi
+expect 0 "$tool" plot run.db -o history.svg
+expect 0 "$tool" plot run.db --slices -o slices.svg
+grep -q '</svg>' history.svg && grep -q '</svg>' slices.svg || fail "pictures"
+expect 0 "$tool" plot run.db --slices -o slices.pdf
 expect 2 "$tool" plot run.db -o history.txt
 
 # A store belongs to one study: what differs is named, and the history stays as it was.

@@ -16,7 +16,7 @@ static const char help[] =
     "  best STORE        the best point so far\n"
     "  status STORE      how far the run is, and its model\n"
     "  export STORE      the history as CSV or JSON\n"
-    "  plot STORE        history and slices of the model as a picture (needs gnuplot)\n"
+    "  plot STORE        history and slices of the model as a picture\n"
     "  design KIND N D   a design of experiments\n"
     "\n"
     "  --help            this text, or with a command its own\n"

@@ -1,22 +1,20 @@
-/* plot: the history and slices of the model through the best point, drawn by gnuplot. */
+/* plot: the history, and slices of the model through the best point. */
 #include "cli.h"
 #include "commands.h"
 #include "names.h"
+#include "plot/ship.h"
 
 #include <getopt.h>
 #include <math.h>
-#include <signal.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
 
 static const char help[] =
     "usage: bayesopt plot STORE -o FILE [OPTION]...\n"
     "\n"
     "Draws every value with the best so far, or the model along one variable at a time through "
     "the\n"
-    "best point. FILE ends in .svg, .png or .pdf; gnuplot is needed.\n"
+    "best point. FILE ends in .svg, .png or .pdf.\n"
     "\n"
     "  -o, --output FILE the picture\n"
     "  --slices          slices of the model instead of the history (the first 16 variables)\n"
@@ -25,142 +23,119 @@ static const char help[] =
     "\n"
     "Exit status: 0 success, 1 failure, 2 wrong usage.\n";
 
-enum { SAMPLES = 101, MOST_SLICES = 16 };
+enum { WIDTH = 1000, HEIGHT = 420, PANEL = 190, SAMPLES = 101, MOST_SLICES = 16 };
 
-static const char *terminal(const char *path)
-{
-    const char *dot = strrchr(path, '.');
-    if (dot && strcmp(dot, ".svg") == 0)
-        return "svg";
-    if (dot && strcmp(dot, ".png") == 0)
-        return "pngcairo";
-    if (dot && strcmp(dot, ".pdf") == 0)
-        return "pdfcairo";
-    return NULL;
-}
-
-/* A text within gnuplot's double quotes. */
-static void quote(FILE *g, const char *text)
-{
-    fputc('"', g);
-    for (; *text; text++) {
-        if (*text == '"' || *text == '\\')
-            fputc('\\', g);
-        fputc(*text == '\n' ? ' ' : *text, g);
-    }
-    fputc('"', g);
-}
-
-static void number_or_gap(FILE *g, double value)
-{
-    if (isfinite(value))
-        fprintf(g, "%.17g ", value);
-    else
-        fprintf(g, "NaN ");
-}
-
-static void draw_history(FILE *g, const bayesopt *bo)
+/* Fills trials[bayesopt_count()], returns how many are known. */
+static size_t gather(const bayesopt *bo, struct plot_trial *trials)
 {
     bayesopt_point p;
-    double best = INFINITY;
-    fprintf(g, "$data << END\n");
+    size_t n = 0;
     for (size_t i = 0; i < bayesopt_count(bo); i++) {
-        if (bayesopt_get(bo, i, &p) || p.state != BAYESOPT_STATE_DONE)
+        if (bayesopt_get(bo, i, &p) ||
+            (p.state != BAYESOPT_STATE_DONE && p.state != BAYESOPT_STATE_FAILED))
             continue;
-        best = p.feasible ? fmin(best, p.f) : best;
-        bool designed = p.phase == BAYESOPT_PHASE_INITIAL || p.phase == BAYESOPT_PHASE_EXTERNAL;
-        fprintf(g, "%llu ", (unsigned long long)p.id);
-        number_or_gap(g, designed ? p.f : NAN);
-        number_or_gap(g, designed ? NAN : p.f);
-        number_or_gap(g, best);
-        fputc('\n', g);
+        struct plot_trial *t = &trials[n++];
+        *t = (struct plot_trial){.number = (double)p.id,
+                                 .value = p.f,
+                                 .initial = p.phase == BAYESOPT_PHASE_INITIAL ||
+                                            p.phase == BAYESOPT_PHASE_EXTERNAL,
+                                 .infeasible = !p.feasible,
+                                 .failed = p.state == BAYESOPT_STATE_FAILED};
+        if (t->failed || *p.note)
+            snprintf(t->note, sizeof t->note, "%llu: %s", (unsigned long long)p.id, p.note);
+        else
+            snprintf(t->note, sizeof t->note, "%llu: %.6g", (unsigned long long)p.id, p.f);
     }
-    fprintf(g, "END\nset xlabel 'evaluation'\nset ylabel 'objective'\nset key outside center top "
-               "horizontal\n"
-               "plot $data using 1:2 with points pt 7 ps 0.8 lc rgb '#999999' title 'design', "
-               "$data using 1:3 with points pt 7 ps 0.8 lc rgb '#d98b2b' title 'proposals', "
-               "$data using 1:4 with steps lw 2 lc rgb '#1f4e9c' title 'best so far'\n");
+    return n;
 }
 
-/* The curve and some room on both sides of it: the band may be wider by orders. */
-static void curve_range(const double *mean, double *low, double *high)
+static bool draw_history(struct plot *plot, const bayesopt *bo)
 {
-    *low = *high = mean[0];
-    for (size_t s = 1; s < SAMPLES; s++) {
-        *low = fmin(*low, mean[s]);
-        *high = fmax(*high, mean[s]);
-    }
-    double room = 0.3 * (*high - *low);
-    if (!(room > 0) || !isfinite(room))
-        room = fmax(fabs(*low), 1e-300);
-    *low -= room;
-    *high += room;
+    struct plot_trial *trials = calloc(bayesopt_count(bo) + 1, sizeof *trials);
+    if (!trials)
+        return cli_refuse("out of memory");
+    const struct plot_history history = {gather(bo, trials), trials, NAN, 0, "objective"};
+    bool good = plot_open(plot, WIDTH, HEIGHT, "History of the search");
+    if (good)
+        plot_history(plot, 0, 0, WIDTH, HEIGHT, &history);
+    free(trials);
+    return good;
 }
 
-static bool draw_slices(FILE *g, bayesopt *bo, const struct names *names)
+/* The model along variable j through the best point: its mean, two standard deviations, the best.
+ */
+static bool draw_slice(struct plot *plot, bayesopt *bo, const struct names *names, size_t j,
+                       const double *best, struct plot_frame *f)
 {
+    static const struct plot_pen mean_pen = {PLOT_BLUE, 2, NULL},
+                                 best_pen = {PLOT_OPTIMUM, 1, "4 3"};
+    size_t d = names->d;
+    double *x = malloc((5 + d) * SAMPLES * sizeof *x);
+    if (!x)
+        return cli_refuse("out of memory");
+    double *mean = x + d * SAMPLES, *sd = mean + SAMPLES, *along = sd + SAMPLES;
+    double *low = along + SAMPLES, *high = low + SAMPLES;
+    for (size_t s = 0; s < SAMPLES; s++) {
+        along[s] = f->x.low + (f->x.high - f->x.low) * (double)s / (SAMPLES - 1);
+        memcpy(x + s * d, best, d * sizeof *x);
+        x[s * d + j] = along[s];
+    }
+    bool good =
+        !bayesopt_predict(bo, SAMPLES, x, mean, sd) || cli_refuse("%s", bayesopt_last_error());
+    if (good) {
+        f->x.label = names->variables[j];
+        plot_include(&f->y, SAMPLES, mean);
+        plot_settle(&f->y);
+        /* Some room on both sides of the curve: the band may be wider by orders. */
+        double room = 0.3 * (f->y.high - f->y.low);
+        f->y.low -= room;
+        f->y.high += room;
+        for (size_t s = 0; s < SAMPLES; s++) {
+            low[s] = fmax(mean[s] - 2 * sd[s], f->y.low);
+            high[s] = fmin(mean[s] + 2 * sd[s], f->y.high);
+        }
+        plot_axes(plot, f);
+        plot_band(plot, f, SAMPLES, along, low, high, mean_pen.colour);
+        plot_curve(plot, f, SAMPLES, along, mean, mean_pen);
+        plot_line(plot, plot_x(f, best[j]), f->top, plot_x(f, best[j]), f->top + f->height,
+                  best_pen);
+    }
+    free(x);
+    return good;
+}
+
+static bool draw_slices(struct plot *plot, bayesopt *bo, const struct names *names)
+{
+    static const struct plot_legend legend[] = {
+        {"model", {PLOT_BLUE, 2, NULL}, PLOT_LINE},
+        {"± 2 standard deviations", {PLOT_BLUE, 0, NULL}, PLOT_BAND},
+        {"best", {PLOT_OPTIMUM, 1, "4 3"}, PLOT_LINE}};
     size_t d = names->d, shown = d < MOST_SLICES ? d : MOST_SLICES;
     size_t columns = (size_t)ceil(sqrt((double)shown)), rows = (shown + columns - 1) / columns;
-    double *lower = malloc((3 * d + SAMPLES * (d + 2)) * sizeof *lower);
-    if (!lower)
-        return false;
-    double *upper = lower + d, *best = upper + d, *x = best + d, *mean = x + SAMPLES * d;
-    double *sd = mean + SAMPLES;
+    double *best = malloc(3 * d * sizeof *best), *lower = best + d, *upper = best + 2 * d;
+    double height = 30 + (rows < 3 ? 1.5 : 1) * PANEL * (double)rows;
+    if (!best)
+        return cli_refuse("out of memory");
     bayesopt_dimension(bo, lower, upper);
-    bool ok = bayesopt_best(bo, best, NULL, NULL) >= 0;
-    fprintf(g, "set multiplot layout %zu,%zu\nunset key\n", rows, columns);
-    for (size_t j = 0; j < shown && ok; j++) {
-        for (size_t s = 0; s < SAMPLES; s++) {
-            memcpy(x + s * d, best, d * sizeof *x);
-            x[s * d + j] = lower[j] + (upper[j] - lower[j]) * (double)s / (SAMPLES - 1);
-        }
-        ok = !bayesopt_predict(bo, SAMPLES, x, mean, sd);
-        if (!ok)
-            break;
-        double low, high;
-        curve_range(mean, &low, &high);
-        fprintf(g, "$slice%zu << END\n", j);
-        for (size_t s = 0; s < SAMPLES; s++)
-            fprintf(g, "%.17g %.17g %.17g %.17g\n", x[s * d + j], mean[s],
-                    fmax(mean[s] - 2 * sd[s], low), fmin(mean[s] + 2 * sd[s], high));
-        fprintf(g, "END\nset xrange [%.17g:%.17g]\nset yrange [%.17g:%.17g]\nset ylabel '%s'\n",
-                lower[j], upper[j], low, high, j % columns ? "" : "objective");
-        fprintf(g, "set xlabel ");
-        quote(g, names->variables[j]);
-        fprintf(g,
-                "\nset arrow 1 from %.17g, graph 0 to %.17g, graph 1 nohead dt 2 lc rgb '#888888'\n"
-                "plot $slice%zu using 1:3:4 with filledcurves lc rgb '#c8d8f0', '' using 1:2 with "
-                "lines lw 2 lc rgb '#1f4e9c'\n",
-                best[j], best[j], j);
+    bool good = bayesopt_best(bo, best, NULL, NULL) >= 0 || cli_refuse("%s", bayesopt_last_error());
+    good = good && plot_open(plot, WIDTH, height, "The model through the best point");
+    if (good)
+        plot_legend(plot, 60, 18, false, 3, legend);
+    for (size_t j = 0; j < shown && good; j++) {
+        double width = (double)WIDTH / (double)columns, tall = (height - 30) / (double)rows;
+        struct plot_frame f = {.left = width * (double)(j % columns) + 64,
+                               .top = 36 + tall * (double)(j / columns),
+                               .width = width - 78,
+                               .height = tall - 56};
+        f.x = (struct plot_axis){.low = lower[j], .high = upper[j]};
+        f.y = (struct plot_axis){
+            .low = INFINITY, .high = -INFINITY, .label = j % columns ? NULL : "objective"};
+        good = draw_slice(plot, bo, names, j, best, &f);
+        if (!good)
+            plot_free(plot);
     }
-    fprintf(g, "unset multiplot\n");
-    free(lower);
-    return ok;
-}
-
-static int plot(bayesopt *bo, const struct names *names, const char *output, bool slices)
-{
-    /* A gnuplot that is missing or stops early must not end this process. */
-    signal(SIGPIPE, SIG_IGN);
-    FILE *g = popen("gnuplot 2>/dev/null", "w");
-    if (!g)
-        return cli_fail("gnuplot cannot be started");
-    fprintf(g, "set terminal %s size %s\nset encoding utf8\nset output ", terminal(output),
-            strcmp(terminal(output), "pdfcairo") == 0 ? "20cm,15cm" : "1000,750");
-    quote(g, output);
-    fprintf(g, "\nset grid lc rgb '#dddddd'\n");
-    bool ok = true;
-    if (slices)
-        ok = draw_slices(g, bo, names);
-    else
-        draw_history(g, bo);
-    int status = pclose(g);
-    if (!ok)
-        return cli_fail("%s", bayesopt_last_error());
-    if (status != 0)
-        return cli_fail("gnuplot failed with status %d; is it installed?",
-                        WIFEXITED(status) ? WEXITSTATUS(status) : -1);
-    return CLI_OK;
+    free(best);
+    return good;
 }
 
 enum { SLICES = 1000, THREADS, HELP };
@@ -189,15 +164,17 @@ int command_plot(int argc, char **argv)
     }
     if (argc - optind != 1 || !output)
         return cli_usage("expected one STORE and -o FILE");
-    if (!terminal(output))
-        return cli_usage("'%s': expected a name that ends in .svg, .png or .pdf", output);
+    if (!plot_check_path("-o", output))
+        return CLI_USAGE;
     bayesopt *bo;
     struct names names;
     if (!store_open(argv[optind], &bo, &names))
         return CLI_FAILED;
-    int code = bayesopt_count(bo) ? plot(bo, &names, output, slices)
-                                  : cli_fail("%s: nothing to plot yet", argv[optind]);
+    struct plot sheet;
+    bool good = bayesopt_count(bo) > 0 || cli_refuse("%s: nothing to plot yet", argv[optind]);
+    good = good && (slices ? draw_slices(&sheet, bo, &names) : draw_history(&sheet, bo)) &&
+           plot_save(&sheet, output);
     names_free(&names);
     bayesopt_free(bo);
-    return code;
+    return good ? CLI_OK : CLI_FAILED;
 }
