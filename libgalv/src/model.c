@@ -2,168 +2,47 @@
 
 #include "error.h"
 
-#include <cblas.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-galv_model *galv_model_new(const galv_model *sizes, bool weighted)
-{
-    galv_model *model = malloc(sizeof *model);
-    if (!model)
-        return NULL;
-    *model = *sizes;
-    size_t parameters = model->parameters, modes = model->modes, spectrum = model->spectrum;
-    model->eigenvalues = calloc(spectrum, sizeof(double));
-    model->residuals = calloc(spectrum, sizeof(double));
-    model->mse = calloc(spectrum, sizeof(double));
-    model->vectors = calloc(model->coordinates * model->kept, sizeof(double));
-    model->mean = calloc(model->coordinates, sizeof(double));
-    model->parent = calloc(3 * model->points + 1, sizeof(double));
-    model->latent = calloc(model->samples * modes, sizeof(double));
-    model->lower = calloc(2 * modes, sizeof(double));
-    model->weights = weighted ? calloc(model->coordinates, sizeof(double)) : NULL;
-    model->regression = parameters ? calloc(parameters * (1 + modes), sizeof(double)) : NULL;
-    if (!model->eigenvalues || !model->residuals || !model->mse || !model->vectors ||
-        !model->mean || !model->parent || !model->latent || !model->lower ||
-        (weighted && !model->weights) || (parameters && !model->regression)) {
-        galv_model_free(model);
-        return NULL;
+#define GETTER(type, name, none)                                                                   \
+    type galv_model_##name(const galv_model *model)                                                \
+    {                                                                                              \
+        return model ? model->name : none;                                                         \
     }
-    model->upper = model->lower + modes;
-    return model;
-}
 
-void galv_model_free(galv_model *model)
-{
-    if (!model)
-        return;
-    free(model->eigenvalues);
-    free(model->residuals);
-    free(model->mse);
-    free(model->vectors);
-    free(model->mean);
-    free(model->parent);
-    free(model->weights);
-    free(model->latent);
-    free(model->lower);
-    free(model->regression);
-    free(model);
-}
+GETTER(size_t, samples, 0)
+GETTER(size_t, points, 0)
+GETTER(size_t, coordinates, 0)
+GETTER(size_t, active, 0)
+GETTER(size_t, parameters, 0)
+GETTER(size_t, modes, 0)
+GETTER(size_t, spectrum, 0)
+GETTER(size_t, passes, 0)
+GETTER(bool, centred, false)
+GETTER(double, retained, NAN)
+GETTER(double, retained_geometry, NAN)
+GETTER(double, trace, NAN)
+GETTER(double, truncation, NAN)
+GETTER(const double *, eigenvalues, NULL)
+GETTER(const double *, residuals, NULL)
+GETTER(const double *, mse, NULL)
+GETTER(const double *, vectors, NULL)
+GETTER(const double *, mean, NULL)
+GETTER(const double *, parent, NULL)
+GETTER(const double *, weights, NULL)
+GETTER(const double *, latent, NULL)
+GETTER(const double *, lower, NULL)
+GETTER(const double *, upper, NULL)
 
-size_t galv_model_samples(const galv_model *model)
+galv_method galv_model_method(const galv_model *model)
 {
-    return model->samples;
-}
-
-size_t galv_model_points(const galv_model *model)
-{
-    return model->points;
-}
-
-size_t galv_model_coordinates(const galv_model *model)
-{
-    return model->coordinates;
-}
-
-size_t galv_model_active(const galv_model *model)
-{
-    return model->active;
-}
-
-size_t galv_model_parameters(const galv_model *model)
-{
-    return model->parameters;
-}
-
-size_t galv_model_modes(const galv_model *model)
-{
-    return model->modes;
-}
-
-size_t galv_model_spectrum(const galv_model *model)
-{
-    return model->spectrum;
-}
-
-double galv_model_retained(const galv_model *model)
-{
-    return model->retained;
-}
-
-double galv_model_trace(const galv_model *model)
-{
-    return model->trace;
-}
-
-double galv_model_retained_geometry(const galv_model *model)
-{
-    return model->retained_geometry;
-}
-
-double galv_model_truncation(const galv_model *model)
-{
-    return model->truncation;
-}
-
-const double *galv_model_eigenvalues(const galv_model *model)
-{
-    return model->eigenvalues;
-}
-
-const double *galv_model_residuals(const galv_model *model)
-{
-    return model->residuals;
-}
-
-const double *galv_model_mse(const galv_model *model)
-{
-    return model->mse;
-}
-
-const double *galv_model_vectors(const galv_model *model)
-{
-    return model->vectors;
-}
-
-const double *galv_model_mean(const galv_model *model)
-{
-    return model->mean;
-}
-
-const double *galv_model_parent(const galv_model *model)
-{
-    return model->parent;
-}
-
-const double *galv_model_weights(const galv_model *model)
-{
-    return model->weights;
-}
-
-const double *galv_model_latent(const galv_model *model)
-{
-    return model->latent;
-}
-
-const double *galv_model_lower(const galv_model *model)
-{
-    return model->lower;
-}
-
-const double *galv_model_upper(const galv_model *model)
-{
-    return model->upper;
+    return model ? (galv_method)model->method : GALV_METHOD_AUTO;
 }
 
 galv_confidence galv_model_confidence(const galv_model *model)
 {
-    return model->confidence;
-}
-
-galv_method galv_model_method(const galv_model *model)
-{
-    return model->method;
+    return model ? model->confidence : (galv_confidence){NAN, NAN};
 }
 
 static galv_status check_finite(const char *what, size_t n, const double *values)
@@ -196,16 +75,43 @@ galv_status galv_project(const galv_model *model, const double *d, double *u)
     return GALV_OK;
 }
 
+galv_status galv_latent_check(const galv_model *model, const double *u)
+{
+    return check_finite("latent coordinate", model->modes, u);
+}
+
+void galv_model_displacement(const galv_model *model, const double *u, size_t n, double *d)
+{
+    memcpy(d, model->mean, n * sizeof *d);
+    for (size_t m = 0; m < model->modes; m++) {
+        const double *mode = model->vectors + m * model->coordinates;
+        for (size_t k = 0; k < n; k++)
+            d[k] += u[m] * mode[k];
+    }
+}
+
 galv_status galv_reconstruct(const galv_model *model, const double *u, double *d)
 {
     if (!model || !u || !d)
         return galv_fail(GALV_ERROR_ARGUMENT, "model, latent point and result must be given");
-    galv_status status = check_finite("latent coordinate", model->modes, u);
+    galv_status status = galv_latent_check(model, u);
     if (status)
         return status;
-    blasint length = (blasint)model->coordinates;
-    memcpy(d, model->mean, model->coordinates * sizeof *d);
-    cblas_dgemv(CblasColMajor, CblasNoTrans, length, (blasint)model->modes, 1, model->vectors,
-                length, u, 1, 1, d, 1);
+    galv_model_displacement(model, u, model->coordinates, d);
+    return GALV_OK;
+}
+
+galv_status galv_displace(const galv_model *model, const double *u, double *moved)
+{
+    if (!model || !u || !moved)
+        return galv_fail(GALV_ERROR_ARGUMENT, "model, latent point and result must be given");
+    if (!model->parent)
+        return galv_fail(GALV_ERROR_ARGUMENT, "the model was built from data without points");
+    galv_status status = galv_latent_check(model, u);
+    if (status)
+        return status;
+    galv_model_displacement(model, u, 3 * model->points, moved);
+    for (size_t k = 0; k < 3 * model->points; k++)
+        moved[k] += model->parent[k];
     return GALV_OK;
 }

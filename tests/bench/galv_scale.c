@@ -165,7 +165,7 @@ int main(int argc, char **argv)
         "%zu passes, method %d, relative to population %.1e (expected scatter %.1e), residual "
         "%.1e\n",
         count, length, wall, processor_seconds(), user_data.wall, user_data.seconds,
-        usage.ru_maxrss / 1024, galv_model_view(model).passes, (int)galv_model_method(model), worst,
+        usage.ru_maxrss / 1024, galv_model_passes(model), (int)galv_model_method(model), worst,
         sqrt(0.8 / (double)count), residual);
     galv_model_free(model);
     free(user_data.factor);

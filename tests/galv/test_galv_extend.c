@@ -98,44 +98,148 @@ static void test_extension_refuses(void)
     galv_shape_free(shape);
 }
 
-static void test_view_and_restore(void)
+enum { FIELDS = 29 };
+
+/* All fields of a model; the place of one of them. */
+static void take_fields(const galv_model *model, galv_field *fields)
+{
+    CU_ASSERT_EQUAL_FATAL(galv_model_field_count(), FIELDS);
+    for (size_t i = 0; i < FIELDS; i++)
+        fields[i] = galv_model_field(model, i);
+}
+
+static galv_field *named(galv_field *fields, const char *name)
+{
+    for (size_t i = 0; i < FIELDS; i++)
+        if (strcmp(fields[i].name, name) == 0)
+            return fields + i;
+    CU_FAIL_FATAL("no such field");
+    return NULL;
+}
+
+static size_t size_of(const galv_field *field)
+{
+    size_t one = field->type == GALV_TYPE_SIZE   ? sizeof(size_t)
+                 : field->type == GALV_TYPE_BOOL ? sizeof(bool)
+                                                 : sizeof(double);
+    return field->rows * field->columns * one;
+}
+
+/* Restoring gives every field back with the same bits, from numbers of their own type, from
+ * doubles, and in any order. */
+static void test_fields_and_restore(void)
 {
     galv_shape *shape = fixture_shape(GALV_COMBINATION_RECURSIVE, 0.03);
     galv_options options;
     galv_options_init(&options);
     options.centre = true;
     galv_model *model = build(shape, galv_uniform(120, 1), &options), *copy = NULL;
-    galv_model_data data = galv_model_view(model);
-    CU_ASSERT_EQUAL_FATAL(galv_model_restore(&data, &copy), GALV_OK);
-    galv_model_data again = galv_model_view(copy);
-    CU_ASSERT_EQUAL(again.samples, data.samples);
-    CU_ASSERT_EQUAL(again.trace, data.trace);
-    CU_ASSERT_EQUAL(
-        memcmp(again.vectors, data.vectors, data.kept * data.coordinates * sizeof(double)), 0);
-    double u[FUNCTIONS], x[FUNCTIONS], y[FUNCTIONS];
-    for (size_t k = 0; k < data.modes; k++)
-        u[k] = 0.3 * data.upper[k];
-    CU_ASSERT_EQUAL(galv_backmap(model, shape, u, x, NULL), GALV_OK);
-    CU_ASSERT_EQUAL(galv_backmap(copy, shape, u, y, NULL), GALV_OK);
-    CU_ASSERT_EQUAL(memcmp(x, y, sizeof x), 0);
-    galv_model_free(copy);
+    galv_field fields[FIELDS], again[FIELDS], doubles[FIELDS];
+    double numbers[FIELDS];
+    take_fields(model, fields);
+    for (size_t i = 0; i < FIELDS; i++) {
+        doubles[FIELDS - 1 - i] = fields[i];
+        if (fields[i].dimensions == 0) {
+            numbers[i] = galv_field_number(&fields[i]);
+            doubles[FIELDS - 1 - i].type = GALV_TYPE_DOUBLE;
+            doubles[FIELDS - 1 - i].values = &numbers[i];
+        }
+    }
+    for (int pass = 0; pass < 2; pass++) {
+        CU_ASSERT_EQUAL_FATAL(galv_model_restore(FIELDS, pass ? doubles : fields, &copy), GALV_OK);
+        take_fields(copy, again);
+        for (size_t i = 0; i < FIELDS; i++) {
+            CU_ASSERT_EQUAL(again[i].rows, fields[i].rows);
+            CU_ASSERT_EQUAL(!again[i].values, !fields[i].values);
+            if (fields[i].values)
+                CU_ASSERT_EQUAL(memcmp(again[i].values, fields[i].values, size_of(&fields[i])), 0);
+        }
+        double u[FUNCTIONS], x[FUNCTIONS], y[FUNCTIONS];
+        for (size_t k = 0; k < galv_model_modes(model); k++)
+            u[k] = 0.3 * galv_model_upper(model)[k];
+        CU_ASSERT_EQUAL(galv_backmap(model, shape, u, x, NULL), GALV_OK);
+        CU_ASSERT_EQUAL(galv_backmap(copy, shape, u, y, NULL), GALV_OK);
+        CU_ASSERT_EQUAL(memcmp(x, y, sizeof x), 0);
+        galv_model_free(copy);
+    }
+    galv_model_free(model);
+    galv_shape_free(shape);
+}
 
-    galv_model_data bad = data;
-    bad.modes = data.kept + 1;
-    CU_ASSERT_EQUAL(galv_model_restore(&bad, &copy), GALV_ERROR_ARGUMENT);
-    bad = data;
-    bad.vectors = NULL;
-    CU_ASSERT_EQUAL(galv_model_restore(&bad, &copy), GALV_ERROR_ARGUMENT);
-    bad = data;
-    double *values = malloc(data.spectrum * sizeof *values);
-    memcpy(values, data.eigenvalues, data.spectrum * sizeof *values);
+static void refuses(const galv_field *fields, const char *sentence)
+{
+    galv_model *model = NULL;
+    CU_ASSERT_EQUAL(galv_model_restore(FIELDS, fields, &model), GALV_ERROR_ARGUMENT);
+    CU_ASSERT_PTR_NOT_NULL(strstr(galv_last_error(), sentence));
+    CU_ASSERT_PTR_NULL(model);
+}
+
+static void test_restore_refuses_by_name(void)
+{
+    galv_shape *shape = fixture_shape(GALV_COMBINATION_RECURSIVE, 0.03);
+    galv_model *model = build(shape, galv_uniform(120, 1), NULL);
+    galv_field fields[FIELDS];
+    size_t modes = galv_model_field_count() * 1000;
+    double half = 0.5, *values = malloc(galv_model_spectrum(model) * sizeof *values);
+    take_fields(model, fields);
+    named(fields, "modes")->values = &modes;
+    refuses(fields, "29000 modes");
+    take_fields(model, fields);
+    named(fields, "vectors")->values = NULL;
+    refuses(fields, "'vectors' is missing");
+    take_fields(model, fields);
+    named(fields, "trace")->values = NULL;
+    refuses(fields, "'trace' is missing");
+    take_fields(model, fields);
+    named(fields, "latent")->rows--;
+    refuses(fields, "'latent' is 119 x ");
+    take_fields(model, fields);
+    *named(fields, "samples") =
+        (galv_field){.name = "samples", .type = GALV_TYPE_DOUBLE, .values = &half};
+    refuses(fields, "'samples' is 0.5");
+    take_fields(model, fields);
+    named(fields, "mean")->name = "meen";
+    refuses(fields, "no 'meen'");
+    take_fields(model, fields);
+    *named(fields, "upper") = *named(fields, "lower");
+    refuses(fields, "'lower' is given twice");
+    take_fields(model, fields);
+    memcpy(values, galv_model_eigenvalues(model), galv_model_spectrum(model) * sizeof *values);
     values[3] = NAN;
-    bad.eigenvalues = values;
-    CU_ASSERT_EQUAL(galv_model_restore(&bad, &copy), GALV_ERROR_ARGUMENT);
-    CU_ASSERT_PTR_NOT_NULL(strstr(galv_last_error(), "eigenvalues: entry 3"));
+    named(fields, "eigenvalues")->values = values;
+    refuses(fields, "'eigenvalues': entry 3");
     values[3] = 2 * values[0];
-    CU_ASSERT_EQUAL(galv_model_restore(&bad, &copy), GALV_ERROR_ARGUMENT);
+    refuses(fields, "'eigenvalues': entry 3");
+    CU_ASSERT_STRING_EQUAL(galv_model_field(NULL, FIELDS).name, "");
     free(values);
+    galv_model_free(model);
+    galv_shape_free(shape);
+}
+
+/* The displaced grid is the parent plus the mean plus the modes, summed here in another order. */
+static void test_displaced_grid(void)
+{
+    galv_shape *shape = fixture_shape(GALV_COMBINATION_RECURSIVE, 0.03);
+    galv_options options;
+    galv_options_init(&options);
+    options.centre = true;
+    galv_model *model = build(shape, galv_uniform(120, 1), &options);
+    double u[FUNCTIONS], moved[3 * POINTS], xyz[3 * POINTS], d[3 * POINTS];
+    size_t modes = galv_model_modes(model), length = galv_model_coordinates(model);
+    for (size_t k = 0; k < modes; k++)
+        u[k] = 0.4 * galv_model_lower(model)[k];
+    fixture_grid(xyz);
+    CU_ASSERT_EQUAL(galv_displace(model, u, moved), GALV_OK);
+    CU_ASSERT_EQUAL(galv_reconstruct(model, u, d), GALV_OK);
+    for (size_t i = 0; i < length; i++) {
+        double sum = 0;
+        for (size_t k = modes; k-- > 0;)
+            sum += u[k] * galv_model_vectors(model)[k * length + i];
+        CHECK_CLOSE(moved[i], xyz[i] + (galv_model_mean(model)[i] + sum), 1e-15);
+        CU_ASSERT_EQUAL(moved[i], d[i] + xyz[i]);
+    }
+    u[0] = NAN;
+    CU_ASSERT_EQUAL(galv_displace(model, u, moved), GALV_ERROR_ARGUMENT);
     galv_model_free(model);
     galv_shape_free(shape);
 }
@@ -239,7 +343,9 @@ static void test_bounds_cover_their_share(void)
 static const struct check_case cases[] = {
     {"extending equals rebuilding", test_extension_equals_rebuilding},
     {"extending refuses what does not fit", test_extension_refuses},
-    {"a model as numbers and back", test_view_and_restore},
+    {"a model as fields and back", test_fields_and_restore},
+    {"restoring refuses by name", test_restore_refuses_by_name},
+    {"the displaced grid", test_displaced_grid},
     {"plain data", test_plain_data},
     {"bounds cover their share", test_bounds_cover_their_share},
 };

@@ -66,34 +66,39 @@ static bool extend(const struct use *use, galv_sampling sampling, galv_model **g
     return ok;
 }
 
-static int print_json(const galv_model_data *old, const galv_model_data *new)
+static int print_json(const galv_model *old, const galv_model *new)
 {
     return json_print(json_pack(
-        "{s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o}", "samples", json_whole(new->samples),
-        "samples_before", json_whole(old->samples), "modes", json_whole(new->modes), "retained",
-        json_number(new->retained), "retained_before", json_number(old->retained), "trace",
-        json_number(new->trace), "trace_before", json_number(old->trace), "subspace_angle",
-        json_number(new->confidence.angle), "truncation", json_number(new->truncation),
-        "eigenvalues", json_numbers(new->spectrum, new->eigenvalues), "eigenvalues_before",
-        json_numbers(old->spectrum, old->eigenvalues)));
+        "{s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o}", "samples",
+        json_whole(galv_model_samples(new)), "samples_before", json_whole(galv_model_samples(old)),
+        "modes", json_whole(galv_model_modes(new)), "retained",
+        json_number(galv_model_retained(new)), "retained_before",
+        json_number(galv_model_retained(old)), "trace", json_number(galv_model_trace(new)),
+        "trace_before", json_number(galv_model_trace(old)), "subspace_angle",
+        json_number(galv_model_confidence(new).angle), "truncation",
+        json_number(galv_model_truncation(new)), "eigenvalues",
+        json_numbers(galv_model_spectrum(new), galv_model_eigenvalues(new)), "eigenvalues_before",
+        json_numbers(galv_model_spectrum(old), galv_model_eigenvalues(old))));
 }
 
-static int print_text(const galv_model_data *old, const galv_model_data *new)
+static int print_text(const galv_model *old, const galv_model *new)
 {
-    printf("%zu samples and %zu more\n", old->samples, new->samples - old->samples);
+    const double *now = galv_model_eigenvalues(new), *before = galv_model_eigenvalues(old);
+    printf("%zu samples and %zu more\n", galv_model_samples(old),
+           galv_model_samples(new) - galv_model_samples(old));
     printf("%zu modes retain %.3f %% of %.6g m^2; before, %zu retained %.3f %% of %.6g m^2\n",
-           new->modes, 100 * new->retained, new->trace, old->modes, 100 * old->retained,
-           old->trace);
+           galv_model_modes(new), 100 * galv_model_retained(new), galv_model_trace(new),
+           galv_model_modes(old), 100 * galv_model_retained(old), galv_model_trace(old));
     printf("greatest angle between old and new modes: %.2f degrees\n",
-           new->confidence.angle * 180 / 3.14159265358979323846);
-    printf("eigenvalues may be too low by up to %.2e m^2\n", new->truncation);
+           galv_model_confidence(new).angle * 180 / 3.14159265358979323846);
+    printf("eigenvalues may be too low by up to %.2e m^2\n", galv_model_truncation(new));
     printf("%4s %14s %14s %10s\n", "mode", "before", "now", "change %");
-    for (size_t k = 0; k < new->modes; k++) {
-        if (k < old->spectrum)
-            printf("%4zu %14.6e %14.6e %10.4f\n", k + 1, old->eigenvalues[k], new->eigenvalues[k],
-                   100 * (new->eigenvalues[k] / old->eigenvalues[k] - 1));
+    for (size_t k = 0; k < galv_model_modes(new); k++) {
+        if (k < galv_model_spectrum(old))
+            printf("%4zu %14.6e %14.6e %10.4f\n", k + 1, before[k], now[k],
+                   100 * (now[k] / before[k] - 1));
         else
-            printf("%4zu %14s %14.6e\n", k + 1, "", new->eigenvalues[k]);
+            printf("%4zu %14s %14.6e\n", k + 1, "", now[k]);
     }
     return fflush(stdout) == EOF ? cli_fail("standard output cannot be written") : CLI_OK;
 }
@@ -110,10 +115,10 @@ static int run(const struct use *use, const struct rows *x)
     file.uniform = use->file.uniform && !use->samples && seed == use->file.seed;
     file.seed = seed;
     file.drawn = drawn;
-    galv_model_data old = galv_model_view(use->file.model), new = galv_model_view(grown);
+    const galv_model *old = use->file.model;
     int result = use->output && !model_file_write(use->output, &file) ? CLI_FAILED
-                 : use->json                                          ? print_json(&old, &new)
-                                                                      : print_text(&old, &new);
+                 : use->json                                          ? print_json(old, grown)
+                                                                      : print_text(old, grown);
     galv_model_free(grown);
     return result;
 }

@@ -2,6 +2,7 @@
 
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 bool h5_write_array(hid_t place, const char *name, size_t rows, size_t columns,
@@ -36,9 +37,43 @@ bool h5_read_array(hid_t place, const char *name, size_t rows, size_t columns, d
     return ok;
 }
 
-bool h5_exists(hid_t place, const char *name)
+/* Deflate, the compression of HDF5, makes of a byte 1032 at most. */
+static const double MOST_EXPANSION = 1032;
+
+static bool file_can_hold(hid_t place, double numbers)
 {
-    return H5Lexists(place, name, H5P_DEFAULT) > 0;
+    hid_t file = H5Iget_file_id(place);
+    hsize_t size = 0;
+    bool ok = file >= 0 && H5Fget_filesize(file, &size) >= 0 &&
+              numbers * sizeof(double) <= MOST_EXPANSION * (double)size;
+    if (file >= 0)
+        H5Fclose(file);
+    return ok;
+}
+
+double *h5_load_array(hid_t place, const char *name, int dimensions, size_t *rows, size_t *columns)
+{
+    if (H5Lexists(place, name, H5P_DEFAULT) <= 0)
+        return NULL;
+    hid_t set = H5Dopen2(place, name, H5P_DEFAULT);
+    if (set < 0)
+        return NULL;
+    hid_t space = H5Dget_space(set);
+    hsize_t size[2] = {0, 1};
+    double *values = NULL;
+    if (H5Sget_simple_extent_ndims(space) == dimensions &&
+        H5Sget_simple_extent_dims(space, size, NULL) >= 0 && size[0] && size[1] &&
+        file_can_hold(place, (double)size[0] * (double)size[1]))
+        values = malloc(size[0] * size[1] * sizeof *values);
+    if (values && H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) {
+        free(values);
+        values = NULL;
+    }
+    *rows = size[0];
+    *columns = size[1];
+    H5Sclose(space);
+    H5Dclose(set);
+    return values;
 }
 
 static bool write_attribute(hid_t place, const char *name, hid_t stored, hid_t native,

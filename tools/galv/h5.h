@@ -12,7 +12,9 @@ bool h5_write_array(hid_t place, const char *name, size_t rows, size_t columns,
                     const double *values);
 /* Reads a dataset whose sizes must be as given. */
 bool h5_read_array(hid_t place, const char *name, size_t rows, size_t columns, double *values);
-bool h5_exists(hid_t place, const char *name);
+/* A new array with the dataset's numbers; NULL when it is missing, has not that many dimensions, is
+ * empty, or claims more than the file can hold. */
+double *h5_load_array(hid_t place, const char *name, int dimensions, size_t *rows, size_t *columns);
 
 bool h5_write_number(hid_t place, const char *name, double value);
 bool h5_read_number(hid_t place, const char *name, double *value);

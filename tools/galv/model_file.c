@@ -20,34 +20,34 @@ const char *method_name(galv_method method)
     return methods[method];
 }
 
+/* The field that a file spells out. */
+static bool is_method(const galv_field *field)
+{
+    return strcmp(field->name, "method") == 0;
+}
+
+static bool write_field(hid_t h5, const galv_field *field)
+{
+    double number = galv_field_number(field);
+    if (!field->values)
+        return true;
+    if (is_method(field))
+        return h5_write_text(h5, field->name, method_name((galv_method)number));
+    if (field->dimensions)
+        return h5_write_array(h5, field->name, field->rows,
+                              field->dimensions == 2 ? field->columns : 0, field->values);
+    return field->type == GALV_TYPE_DOUBLE ? h5_write_number(h5, field->name, number)
+                                           : h5_write_count(h5, field->name, (size_t)number);
+}
+
 static bool write_model(hid_t h5, const galv_model *model)
 {
-    galv_model_data d = galv_model_view(model);
-    return h5_write_count(h5, "samples", d.samples) && h5_write_count(h5, "points", d.points) &&
-           h5_write_count(h5, "coordinates", d.coordinates) &&
-           h5_write_count(h5, "active", d.active) &&
-           h5_write_count(h5, "parameters", d.parameters) && h5_write_count(h5, "modes", d.modes) &&
-           h5_write_count(h5, "spectrum", d.spectrum) && h5_write_count(h5, "kept", d.kept) &&
-           h5_write_count(h5, "passes", d.passes) && h5_write_count(h5, "centred", d.centred) &&
-           h5_write_text(h5, "method", method_name(d.method)) &&
-           h5_write_number(h5, "retained", d.retained) &&
-           h5_write_number(h5, "retained_geometry", d.retained_geometry) &&
-           h5_write_number(h5, "trace", d.trace) &&
-           h5_write_number(h5, "trace_geometry", d.trace_geometry) &&
-           h5_write_number(h5, "truncation", d.truncation) &&
-           h5_write_number(h5, "retained_error", d.confidence.retained_error) &&
-           h5_write_number(h5, "subspace_angle", d.confidence.angle) &&
-           h5_write_array(h5, "eigenvalues", d.spectrum, 0, d.eigenvalues) &&
-           h5_write_array(h5, "residuals", d.spectrum, 0, d.residuals) &&
-           h5_write_array(h5, "mse", d.spectrum, 0, d.mse) &&
-           h5_write_array(h5, "vectors", d.kept, d.coordinates, d.vectors) &&
-           h5_write_array(h5, "mean", d.coordinates, 0, d.mean) &&
-           h5_write_array(h5, "parent", d.points, 3, d.parent) &&
-           (!d.weights || h5_write_array(h5, "weights", d.coordinates, 0, d.weights)) &&
-           h5_write_array(h5, "latent", d.samples, d.modes, d.latent) &&
-           h5_write_array(h5, "lower", d.modes, 0, d.lower) &&
-           h5_write_array(h5, "upper", d.modes, 0, d.upper) &&
-           h5_write_array(h5, "regression", d.parameters, 1 + d.modes, d.regression);
+    bool ok = true;
+    for (size_t i = 0; i < galv_model_field_count() && ok; i++) {
+        galv_field field = galv_model_field(model, i);
+        ok = write_field(h5, &field);
+    }
+    return ok;
 }
 
 /* The table of what each parameter does: for sines n rows of order (3), phase (3), direction; for a
@@ -151,104 +151,64 @@ static bool count(struct reader *r, const char *name, size_t *value)
     return !r->wrong;
 }
 
-static void number(struct reader *r, const char *name, double *value)
-{
-    if (!r->wrong && !h5_read_number(r->h5, name, value))
-        r->wrong = name;
-}
-
 /* A new array, registered in *slot. */
 static const double *array(struct reader *r, const char *name, size_t rows, size_t columns,
                            double **slot)
 {
-    size_t n = rows * (columns ? columns : 1);
+    size_t found_rows, found_columns;
     *slot = NULL;
     if (r->wrong)
         return NULL;
-    if (columns && rows > MOST_NUMBERS / columns) {
-        r->wrong = name;
-        return NULL;
-    }
-    /* A file cannot make us reserve more than it holds. */
-    hid_t set = H5Dopen2(r->h5, name, H5P_DEFAULT);
-    hid_t space = set >= 0 ? H5Dget_space(set) : -1;
-    bool fits = space >= 0 && H5Sget_simple_extent_npoints(space) == (hssize_t)n && n > 0;
-    if (space >= 0)
-        H5Sclose(space);
-    if (set >= 0)
-        H5Dclose(set);
-    if (fits)
-        *slot = malloc(n * sizeof **slot);
-    if (!*slot || !h5_read_array(r->h5, name, rows, columns, *slot))
+    *slot = h5_load_array(r->h5, name, columns ? 2 : 1, &found_rows, &found_columns);
+    if (!*slot || found_rows != rows || found_columns != (columns ? columns : 1))
         r->wrong = name;
     return *slot;
 }
 
-enum { ARRAYS = 11 };
-
-static void read_sizes(struct reader *r, galv_model_data *d)
-{
-    size_t centred = 0;
-    count(r, "samples", &d->samples);
-    count(r, "points", &d->points);
-    count(r, "coordinates", &d->coordinates);
-    count(r, "active", &d->active);
-    count(r, "parameters", &d->parameters);
-    count(r, "modes", &d->modes);
-    count(r, "spectrum", &d->spectrum);
-    count(r, "kept", &d->kept);
-    count(r, "passes", &d->passes);
-    count(r, "centred", &centred);
-    d->centred = centred != 0;
-    number(r, "retained", &d->retained);
-    number(r, "retained_geometry", &d->retained_geometry);
-    number(r, "trace", &d->trace);
-    number(r, "trace_geometry", &d->trace_geometry);
-    number(r, "truncation", &d->truncation);
-    number(r, "retained_error", &d->confidence.retained_error);
-    number(r, "subspace_angle", &d->confidence.angle);
-    if (!r->wrong &&
-        (d->samples > MOST_NUMBERS || d->points > MOST_NUMBERS || d->coordinates > MOST_NUMBERS ||
-         d->parameters > MOST_NUMBERS || d->kept > MOST_NUMBERS || d->spectrum > MOST_NUMBERS ||
-         d->modes > (size_t)1 << 20))
-        r->wrong = "sizes";
-}
-
-static void read_method(struct reader *r, galv_model_data *d)
+/* The method by its name, as a number of the model. */
+static bool read_method(hid_t h5, const char *name, double *number)
 {
     char text[32];
-    if (!r->wrong && !h5_read_text(r->h5, "method", text, sizeof text))
-        r->wrong = "method";
-    for (size_t i = 0; !r->wrong && i < sizeof methods / sizeof methods[0]; i++)
+    if (!h5_read_text(h5, name, text, sizeof text))
+        return false;
+    for (size_t i = 0; i < sizeof methods / sizeof methods[0]; i++)
         if (strcmp(text, methods[i]) == 0) {
-            d->method = (galv_method)i;
-            return;
+            *number = (double)i;
+            return true;
         }
-    r->wrong = "method";
+    return false;
 }
 
-static bool read_model(struct reader *r, galv_model **model)
+/* Numbers go to *number, arrays are new: *slot. What the file does not have stays absent. */
+static void read_field(hid_t h5, galv_field *field, double *number, double **slot)
 {
-    galv_model_data d = {.samples = 0};
-    double *slot[ARRAYS] = {NULL};
-    read_sizes(r, &d);
-    read_method(r, &d);
-    d.eigenvalues = array(r, "eigenvalues", d.spectrum, 0, &slot[0]);
-    d.residuals = array(r, "residuals", d.spectrum, 0, &slot[1]);
-    d.mse = array(r, "mse", d.spectrum, 0, &slot[2]);
-    d.vectors = array(r, "vectors", d.kept, d.coordinates, &slot[3]);
-    d.mean = array(r, "mean", d.coordinates, 0, &slot[4]);
-    d.parent = array(r, "parent", d.points, 3, &slot[5]);
-    if (!r->wrong && h5_exists(r->h5, "weights"))
-        d.weights = array(r, "weights", d.coordinates, 0, &slot[6]);
-    d.latent = array(r, "latent", d.samples, d.modes, &slot[7]);
-    d.lower = array(r, "lower", d.modes, 0, &slot[8]);
-    d.upper = array(r, "upper", d.modes, 0, &slot[9]);
-    d.regression = array(r, "regression", d.parameters, 1 + d.modes, &slot[10]);
-    galv_status status = r->wrong ? GALV_ERROR_FORMAT : galv_model_restore(&d, model);
-    for (int i = 0; i < ARRAYS; i++)
-        free(slot[i]);
-    return status == GALV_OK;
+    if (field->dimensions) {
+        field->values = *slot =
+            h5_load_array(h5, field->name, field->dimensions, &field->rows, &field->columns);
+    } else if (is_method(field) ? read_method(h5, field->name, number)
+                                : h5_read_number(h5, field->name, number)) {
+        field->type = GALV_TYPE_DOUBLE;
+        field->values = number;
+    }
+}
+
+static bool read_model(hid_t h5, galv_model **model)
+{
+    size_t n = galv_model_field_count();
+    galv_field *fields = calloc(n, sizeof *fields);
+    double *numbers = calloc(n, sizeof *numbers), **slots = calloc(n, sizeof *slots);
+    bool ok = fields && numbers && slots;
+    for (size_t i = 0; i < n && ok; i++) {
+        fields[i] = galv_model_field(NULL, i);
+        read_field(h5, &fields[i], &numbers[i], &slots[i]);
+    }
+    ok = ok && galv_model_restore(n, fields, model) == GALV_OK;
+    for (size_t i = 0; i < n && slots; i++)
+        free(slots[i]);
+    free(slots);
+    free(numbers);
+    free(fields);
+    return ok;
 }
 
 /* A whole number in 0..most. */
@@ -370,7 +330,7 @@ static bool read_all(struct reader *r, struct model_file *file)
     file->uniform = uniform != 0;
     if (!r->wrong && !h5_read_text(r->h5, "hull", file->hull, sizeof file->hull))
         r->wrong = "hull";
-    if (r->wrong || !read_model(r, &file->model))
+    if (r->wrong || !read_model(r->h5, &file->model))
         return false;
     file->drawn = newer_count(r, "drawn", file->uniform ? galv_model_samples(file->model) : 0);
     size_t points = galv_model_points(file->model);

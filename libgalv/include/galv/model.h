@@ -176,6 +176,7 @@ GALV_API galv_status galv_extend(const galv_model *model, const galv_shape *shap
 GALV_API void galv_model_free(galv_model *model);
 
 /** @name Sizes
+ * 0 for a model NULL.
  * @{ */
 GALV_API size_t galv_model_samples(const galv_model *model); /**< N */
 GALV_API size_t galv_model_points(const galv_model *model);  /**< E */
@@ -186,10 +187,13 @@ galv_model_active(const galv_model *model); /**< coordinates that move in some s
 GALV_API size_t galv_model_parameters(const galv_model *model); /**< n of the shape sampled */
 GALV_API size_t galv_model_modes(const galv_model *model);      /**< m */
 GALV_API size_t galv_model_spectrum(const galv_model *model);   /**< eigenvalues known, >= m */
+GALV_API size_t galv_model_passes(const galv_model *model); /**< over the samples while building */
+/** Whether the mean of the samples is subtracted. */
+GALV_API bool galv_model_centred(const galv_model *model);
 /** @} */
 
 /** @name Numbers
- * Arrays are borrowed from the model.
+ * Arrays are borrowed from the model. NaN or NULL for a model NULL.
  * @{ */
 GALV_API double galv_model_retained(const galv_model *model); /**< eq. 9 for the m modes, 0..1 */
 GALV_API double galv_model_trace(const galv_model *model);    /**< exact trace of C, m^2 */
@@ -213,7 +217,7 @@ GALV_API const double *galv_model_mse(const galv_model *model);
 GALV_API const double *galv_model_vectors(const galv_model *model);
 /** Mean displacement (L), zeros when not centred. */
 GALV_API const double *galv_model_mean(const galv_model *model);
-/** The points of the parent, npoints triples. */
+/** The points of the parent, npoints triples; NULL without points. */
 GALV_API const double *galv_model_parent(const galv_model *model);
 /** Weights of the coordinates (L), or NULL when all are 1. */
 GALV_API const double *galv_model_weights(const galv_model *model);
@@ -258,8 +262,12 @@ GALV_API galv_status galv_latent_distance(const galv_model *model, const double 
 /** Latent coordinates of a displacement, u = W1^T (d - mean): d has L numbers, u m, filled. */
 GALV_API galv_status galv_project(const galv_model *model, const double *d, double *u);
 
-/** Displacement of a latent point, d = mean + W1 u: u has m numbers, d L, filled. */
+/** Displacement of a latent point, d = mean + W1 u: u has m numbers, d L, filled. The same bits on
+ * every machine and for any number of threads. */
 GALV_API galv_status galv_reconstruct(const galv_model *model, const double *u, double *d);
+
+/** The points of a latent point's hull: parent + d, npoints triples, filled. */
+GALV_API galv_status galv_displace(const galv_model *model, const double *u, double *moved);
 
 /**
  * The parameters whose shape is nearest to a latent point's: minimises |d(x) - W1 u - mean| within
@@ -274,25 +282,46 @@ GALV_API galv_status galv_reconstruct(const galv_model *model, const double *u, 
 GALV_API galv_status galv_backmap(const galv_model *model, const galv_shape *shape, const double *u,
                                   double *x, double *residual);
 
-/** Everything a model holds, to be written to a file and made into a model again. Array sizes as in
- * the accessors; `vectors` holds `kept` >= modes vectors, regression parameters x (1 + modes)
- * numbers. */
-typedef struct galv_model_data {
-    size_t samples, points, coordinates, active, parameters, modes, spectrum, kept, passes;
-    bool centred; /* whether the mean of the samples is subtracted */
-    galv_method method;
-    double retained, retained_geometry, trace, trace_geometry, truncation;
-    galv_confidence confidence;
-    const double *eigenvalues, *residuals, *mse, *vectors, *mean, *parent, *weights, *latent,
-        *lower, *upper, *regression;
-} galv_model_data;
+/** @name A model as a table
+ * Everything a model holds, as fields with names: what is written to a file or a database in a loop
+ * over the fields, and made into the same model again, bit for bit.
+ * @{ */
 
-/** Arrays are borrowed from the model. */
-GALV_API galv_model_data galv_model_view(const galv_model *model);
+typedef enum galv_type {
+    GALV_TYPE_DOUBLE,
+    GALV_TYPE_SIZE, /**< size_t */
+    GALV_TYPE_BOOL,
+} galv_type;
 
-/** A model from its numbers; copies all arrays. weights may be NULL; parent and regression are NULL
- * when points and parameters are 0. Refuses sizes and values that no model has. */
-GALV_API galv_status galv_model_restore(const galv_model_data *data, galv_model **model);
+typedef struct galv_field {
+    const char *name; /**< static: "samples", "vectors", ... */
+    galv_type type;   /**< arrays are of doubles */
+    int dimensions;   /**< 0 a number, 1 an array of `rows`, 2 a matrix, row by row */
+    size_t rows, columns;
+    const void *values; /**< rows x columns of them; NULL: the model has no such field (weights all
+                           1, no points, no parameters) */
+} galv_field;
+
+/** Fields of every model. */
+GALV_API size_t galv_model_field_count(void);
+
+/** Field `index` of a model, its values borrowed from it. model NULL: name, type and dimensions
+ * alone, as a reader needs them. An index too large gives the name "". */
+GALV_API galv_field galv_model_field(const galv_model *model, size_t index);
+
+/** The value (the first of an array) as a double, whatever the type; NaN without values. */
+GALV_API double galv_field_number(const galv_field *field);
+
+/**
+ * A model from its fields.
+ * @param n,fields  in any order; numbers of any type may be given as doubles; absent ones may be
+ * left out or have the values NULL; all are copied
+ * @param[out] model created
+ * @return GALV_ERROR_ARGUMENT names the field that is missing, unknown, of another size, or has a
+ * value that no model has.
+ */
+GALV_API galv_status galv_model_restore(size_t n, const galv_field *fields, galv_model **model);
+/** @} */
 
 #ifdef __cplusplus
 }
