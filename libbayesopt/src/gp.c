@@ -345,9 +345,8 @@ bool gp_condition(struct bayesopt_gp *gp)
 
 bool gp_scratch_create(struct gp_scratch *scratch, size_t capacity)
 {
-    scratch->inverse = malloc(3 * capacity * capacity * sizeof(double));
-    scratch->work = scratch->inverse + capacity * capacity;
-    scratch->w = scratch->work + capacity * capacity;
+    scratch->inverse = malloc(2 * capacity * capacity * sizeof(double));
+    scratch->w = scratch->inverse + capacity * capacity;
     return scratch->inverse != NULL;
 }
 
@@ -357,14 +356,15 @@ void gp_scratch_free(struct gp_scratch *scratch)
 }
 
 /* Rasmussen and Williams eq. 5.9: d/dtheta = tr((alpha alpha' - K^-1) dK/dtheta)/2. */
-void gp_likelihood_gradient(const struct bayesopt_gp *gp, const struct gp_theta *theta,
+bool gp_likelihood_gradient(const struct bayesopt_gp *gp, const struct gp_theta *theta,
                             struct gp_scratch *scratch, bool need_w, double *gradient)
 {
     size_t n = gp->n, d = gp->d, ld = gp->capacity;
     double point[1000], fit = 0, trace = 0, residual = 0;
     if (need_w)
-        gp_covariance(gp, theta->signal, scratch->work, scratch->w);
-    matrix_inverse(n, gp->factor, ld, scratch->inverse, scratch->work);
+        gp_covariance(gp, theta->signal, scratch->inverse, scratch->w);
+    if (!matrix_inverse(n, gp->factor, ld, scratch->inverse))
+        return false;
     memset(gradient, 0, (d + 2) * sizeof *gradient);
     for (size_t i = 0; i < n; i++) {
         double *p = scratch->inverse + i * ld, inverse = p[i];
@@ -385,6 +385,7 @@ void gp_likelihood_gradient(const struct bayesopt_gp *gp, const struct gp_theta 
     }
     gradient[d] = 0.5 * (residual - (double)n - fit);
     gradient[d + 1] = 0.5 * theta->noise * trace;
+    return true;
 }
 
 bool gp_likelihood(struct bayesopt_gp *gp, const struct gp_theta *theta, struct gp_scratch *scratch,
@@ -397,9 +398,7 @@ bool gp_likelihood(struct bayesopt_gp *gp, const struct gp_theta *theta, struct 
     if (!factorise(gp, theta->signal, theta->noise, 1.01e-6, w) || !condition_mean(gp))
         return false;
     *value = gp->log_likelihood;
-    if (gradient)
-        gp_likelihood_gradient(gp, theta, scratch, false, gradient);
-    return true;
+    return !gradient || gp_likelihood_gradient(gp, theta, scratch, false, gradient);
 }
 
 bayesopt_status bayesopt_gp_set_parameters(bayesopt_gp *gp,

@@ -1,6 +1,7 @@
 /* Maximum a posteriori hyper-parameters, and the choice between models. */
 #include "error.h"
 #include "gp_internal.h"
+#include "matrix.h"
 #include "random.h"
 
 #include <math.h>
@@ -29,6 +30,10 @@ enum { MOST_PARAMETERS = 1002 };
 
 /* Of the log posterior. */
 static const double tolerance = 1e-3;
+
+/* A direction in which the posterior is flatter than this counts with it: about that of the widest
+ * prior, 1/signal_deviation^2. */
+static const double least_curvature = 0.1;
 
 /* One of the models compared: how the length scales are tied and how far they may differ. */
 struct model {
@@ -274,17 +279,12 @@ static double log_evidence(struct fit *fit)
         for (size_t j = 0; j < k && ok; j++)
             h[i * k + j] = (at[j] - moved[j]) / step;
     }
-    /* Symmetrise and eliminate; a direction without curvature counts with that of its prior. */
     for (size_t i = 0; i < k && ok; i++)
         for (size_t j = 0; j < i; j++)
             h[i * k + j] = h[j * k + i] = 0.5 * (h[i * k + j] + h[j * k + i]);
-    for (size_t i = 0; i < k && ok; i++) {
-        double pivot = fmax(h[i * k + i], 0.1);
-        logs += log(pivot);
-        for (size_t j = i + 1; j < k; j++)
-            for (size_t c = i + 1; c < k; c++)
-                h[j * k + c] -= h[j * k + i] * h[i * k + c] / pivot;
-    }
+    ok = ok && matrix_eigenvalues(k, h, at);
+    for (size_t i = 0; i < k && ok; i++)
+        logs += log(fmax(at[i], least_curvature));
     free(h);
     return ok ? best + 0.5 * ((double)k * log_2pi - logs) : best;
 }

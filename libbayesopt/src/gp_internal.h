@@ -55,9 +55,9 @@ void gp_basis_row(const struct bayesopt_gp *gp, const double *x, double *row);
 /* Everything from the factorisation on, with the jitter ladder. false: not positive definite. */
 bool gp_condition(struct bayesopt_gp *gp);
 bayesopt_status gp_reserve(struct bayesopt_gp *gp, size_t n);
-/* Scratch of gp_likelihood(): three capacity x capacity matrices. */
+/* Scratch of gp_likelihood(): two capacity x capacity matrices. */
 struct gp_scratch {
-    double *inverse, *work, *w;
+    double *inverse, *w;
 };
 bool gp_scratch_create(struct gp_scratch *scratch, size_t capacity);
 void gp_scratch_free(struct gp_scratch *scratch);
@@ -66,8 +66,8 @@ void gp_scratch_free(struct gp_scratch *scratch);
  */
 bool gp_likelihood(struct bayesopt_gp *gp, const struct gp_theta *theta, struct gp_scratch *scratch,
                    double *value, double *gradient);
-/* The gradient alone, from the present factor; need_w: compute w first. */
-void gp_likelihood_gradient(const struct bayesopt_gp *gp, const struct gp_theta *theta,
+/* The gradient alone, from the present factor; need_w: compute w first. false: no inverse. */
+bool gp_likelihood_gradient(const struct bayesopt_gp *gp, const struct gp_theta *theta,
                             struct gp_scratch *scratch, bool need_w, double *gradient);
 
 #endif

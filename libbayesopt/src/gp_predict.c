@@ -155,9 +155,10 @@ bayesopt_status bayesopt_gp_log_likelihood(const bayesopt_gp *gp, double *value,
     if (!gp_scratch_create(&scratch, gp->capacity))
         return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "gp: out of memory");
     struct gp_theta theta = {gp->lengthscale, gp->signal, gp->noise};
-    gp_likelihood_gradient(gp, &theta, &scratch, true, gradient);
+    if (!gp_likelihood_gradient(gp, &theta, &scratch, true, gradient))
+        status = bayesopt_fail(BAYESOPT_ERROR_NUMERIC, "gp: the covariance has no inverse");
     gp_scratch_free(&scratch);
-    return BAYESOPT_OK;
+    return status;
 }
 
 bayesopt_status bayesopt_gp_outputs(const bayesopt_gp *gp, double *t)
@@ -174,14 +175,15 @@ bayesopt_status bayesopt_gp_loo(const bayesopt_gp *gp, double *mean, double *var
     if (status)
         return status;
     size_t ld = gp->capacity;
-    double *inverse = malloc(2 * ld * ld * sizeof *inverse);
+    double *inverse = malloc(ld * ld * sizeof *inverse);
     if (!inverse)
         return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "gp: out of memory");
-    matrix_inverse(gp->n, gp->factor, ld, inverse, inverse + ld * ld);
-    for (size_t i = 0; i < gp->n; i++) {
+    if (!matrix_inverse(gp->n, gp->factor, ld, inverse))
+        status = bayesopt_fail(BAYESOPT_ERROR_NUMERIC, "gp: the covariance has no inverse");
+    for (size_t i = 0; i < gp->n && !status; i++) {
         var[i] = 1 / inverse[i * ld + i];
         mean[i] = gp->t[i] - gp->alpha[i] * var[i];
     }
     free(inverse);
-    return BAYESOPT_OK;
+    return status;
 }

@@ -1,9 +1,6 @@
-/* Dense factorisation and solves for matrices of a few hundred to a few thousand rows, row-major,
- * lower triangles.
- *
- * All in the calling thread: results are the same whatever thread setting a BLAS has, and callers
- * that run side by side do not oversubscribe the machine. Work is done on 64 x 64 tiles that stay
- * in the first-level caches, the products in register blocks. */
+/* What the regressions ask of BLAS and LAPACK: row-major matrices of which the lower triangle is
+ * meant, row length ld, with what the calls return checked. LAPACK counts columns first: its upper
+ * triangle is this lower one, and nothing is copied or transposed. */
 #ifndef BAYESOPT_MATRIX_H
 #define BAYESOPT_MATRIX_H
 
@@ -15,8 +12,8 @@ double matrix_dot(size_t n, const double *x, const double *y);
 void matrix_axpy(size_t n, double a, const double *x, double *y);
 void matrix_scale(size_t n, double a, double *x);
 
-/* A = L L' in place (lower triangle of n x n, row length ld); the strict upper triangle is neither
- * read nor written. false: not positive definite, A is spoilt. O(n^3/3). */
+/* A = L L' in place; the strict upper triangle is neither read nor written. false: not positive
+ * definite or not finite, A is spoilt. O(n^3/3). */
 bool matrix_cholesky(size_t n, double *a, size_t ld);
 
 /* B := L^-1 B for m columns, B n x m with row length ldb. O(n^2 m). */
@@ -26,8 +23,15 @@ void matrix_solve_lower(size_t n, const double *l, size_t ld, size_t m, double *
 void matrix_forward(size_t n, const double *l, size_t ld, double *b);
 void matrix_backward(size_t n, const double *l, size_t ld, double *b);
 
-/* inverse := (L L')^-1, lower triangle (tiles on the diagonal whole); work: n x n. Row lengths ld
- * for all. O(2 n^3/3). */
-void matrix_inverse(size_t n, const double *l, size_t ld, double *inverse, double *work);
+/* inverse := lower triangle of (L L')^-1. false: L has a zero on its diagonal. O(2 n^3/3). */
+bool matrix_inverse(size_t n, const double *l, size_t ld, double *inverse);
+
+/* b := A^-1 b for a full n x n matrix, which is overwritten. false: a pivot is at most `least`
+ * times the largest entry of A, or there is no memory. O(2 n^3/3). */
+bool matrix_solve(size_t n, double *a, double *b, double least);
+
+/* Eigenvalues of a symmetric matrix, ascending, into values [n]; A is spoilt. false: no convergence
+ * or no memory. */
+bool matrix_eigenvalues(size_t n, double *a, double *values);
 
 #endif

@@ -45,11 +45,12 @@ static bayesopt_status draw_normals(size_t n, uint64_t seed, double *z)
 
 /* With K = F + N, N the noise, the true values given t have mean t - N alpha and covariance
  * N - N K^-1 N; its Cholesky factor replaces the lower triangle of k. */
-static bool posterior_factor(const bayesopt_gp *gp, const double *noise, double *k, double *work)
+static bool posterior_factor(const bayesopt_gp *gp, const double *noise, double *k)
 {
     size_t n = gp->n, ld = gp->capacity;
     double largest = 0;
-    matrix_inverse(n, gp->factor, ld, k, work);
+    if (!matrix_inverse(n, gp->factor, ld, k))
+        return false;
     for (size_t i = 0; i < n; i++) {
         for (size_t j = 0; j <= i; j++)
             k[i * ld + j] = (i == j ? noise[i] : 0) - noise[i] * k[i * ld + j] * noise[j];
@@ -86,7 +87,7 @@ static double prior_mean(const struct noisy *noisy, const double *x)
     return mean;
 }
 
-/* scratch: [n] residuals, [n] noise, [DRAWS x n] normals, two capacity x capacity matrices. */
+/* scratch: [n] residuals, [n] noise, [DRAWS x n] normals, a capacity x capacity matrix. */
 static bayesopt_status draw(const bayesopt_gp *gp, const bool *eligible, uint64_t seed,
                             struct noisy *noisy, double *scratch)
 {
@@ -95,7 +96,7 @@ static bayesopt_status draw(const bayesopt_gp *gp, const bool *eligible, uint64_
     for (size_t i = 0; i < n; i++)
         noise[i] = gp_noise(gp, i, gp->noise) + gp->jitter;
     bayesopt_status status = draw_normals(n, seed, z);
-    if (!status && !posterior_factor(gp, noise, k, k + ld * ld))
+    if (!status && !posterior_factor(gp, noise, k))
         status = bayesopt_fail(BAYESOPT_ERROR_NUMERIC, "noisy improvement: no posterior factor");
     for (size_t s = 0; s < DRAWS && !status; s++) {
         noisy->best[s] = INFINITY;
@@ -123,7 +124,7 @@ bayesopt_status noisy_create(const bayesopt_gp *gp, const bool *eligible, uint64
 {
     size_t n = gp->n, d = gp->d;
     struct noisy *noisy = calloc(1, sizeof *noisy);
-    double *scratch = malloc(((2 + DRAWS) * n + 2 * gp->capacity * gp->capacity) * sizeof *scratch);
+    double *scratch = malloc(((2 + DRAWS) * n + gp->capacity * gp->capacity) * sizeof *scratch);
     if (noisy) {
         *noisy = (struct noisy){.n = n, .d = d};
         noisy->slope = calloc(d + 1 + DRAWS * n + 2 * d, sizeof *noisy->slope);

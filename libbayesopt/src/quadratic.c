@@ -1,5 +1,7 @@
 #include "quadratic.h"
 
+#include "matrix.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,62 +21,33 @@ static int nearer(const void *a, const void *b)
     return x->row < y->row ? -1 : x->row > y->row;
 }
 
-/* Solves A x = b by elimination with row exchanges, A row by row of width n + 1 with b in its last
- * column, which becomes x. false: singular to rounding. */
-static bool eliminate(size_t n, double *a)
-{
-    size_t w = n + 1;
-    double largest = 0;
-    for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j < n; j++)
-            largest = fmax(largest, fabs(a[i * w + j]));
-    for (size_t k = 0; k < n; k++) {
-        size_t pivot = k;
-        for (size_t i = k + 1; i < n; i++)
-            if (fabs(a[i * w + k]) > fabs(a[pivot * w + k]))
-                pivot = i;
-        if (!(fabs(a[pivot * w + k]) > 1e-14 * largest))
-            return false;
-        for (size_t j = k; j < w && pivot != k; j++) {
-            double kept = a[k * w + j];
-            a[k * w + j] = a[pivot * w + j];
-            a[pivot * w + j] = kept;
-        }
-        for (size_t i = k + 1; i < n; i++) {
-            double factor = a[i * w + k] / a[k * w + k];
-            for (size_t j = k + 1; j < w && factor != 0; j++)
-                a[i * w + j] -= factor * a[k * w + j];
-        }
-    }
-    for (size_t k = n; k-- > 0;) {
-        for (size_t j = k + 1; j < n; j++)
-            a[k * w + n] -= a[k * w + j] * a[j * w + n];
-        a[k * w + n] /= a[k * w + k];
-    }
-    return true;
-}
+/* Smaller pivots over the largest entry are rounding errors of a singular matrix; points too close
+ * to each other have at least the other number, so that a repeated point is no such matrix. */
+static const double singular = 1e-14, apart = 1e-12;
 
 /* With H = sum lambda_i s_i s_i' the conditions of least |H|^2 are (s_i's_j)^2/2 lambda + c + g's_i
- * = y_i, sum lambda = 0, sum lambda s = 0. Steps s are in units of the farthest point used. */
-static bool solve_conditions(size_t d, size_t m, const double *s, const double *y, double *a)
+ * = y_i, sum lambda = 0, sum lambda s = 0. Steps s are in units of the farthest point used. Fills
+ * (lambda, c, g) [n], n = m + d + 1; a [n x n] is scratch. */
+static bool solve_conditions(size_t d, size_t m, const double *s, const double *y, double *a,
+                             double *solution)
 {
-    size_t n = m + d + 1, w = n + 1;
-    memset(a, 0, n * w * sizeof *a);
+    size_t n = m + d + 1;
+    memset(a, 0, n * n * sizeof *a);
+    memset(solution, 0, n * sizeof *solution);
     for (size_t i = 0; i < m; i++) {
         for (size_t k = 0; k <= i; k++) {
             double dot = 0;
             for (size_t j = 0; j < d; j++)
                 dot += s[i * d + j] * s[k * d + j];
-            a[i * w + k] = a[k * w + i] = 0.5 * dot * dot;
+            a[i * n + k] = a[k * n + i] = 0.5 * dot * dot;
         }
-        /* What points too close to each other need. */
-        a[i * w + i] += 1e-12;
-        a[i * w + m] = a[m * w + i] = 1;
+        a[i * n + i] += apart;
+        a[i * n + m] = a[m * n + i] = 1;
         for (size_t j = 0; j < d; j++)
-            a[i * w + m + 1 + j] = a[(m + 1 + j) * w + i] = s[i * d + j];
-        a[i * w + n] = y[i];
+            a[i * n + m + 1 + j] = a[(m + 1 + j) * n + i] = s[i * d + j];
+        solution[i] = y[i];
     }
-    return eliminate(n, a);
+    return matrix_solve(n, a, solution, singular);
 }
 
 bool quadratic_fit(struct quadratic *q, size_t d, size_t n, const double *x, const double *y,
@@ -101,22 +74,21 @@ bool quadratic_fit(struct quadratic *q, size_t d, size_t n, const double *x, con
         unit = order[m - 1].distance;
         ok = unit > 0;
     }
-    double *values = s + m * d, *a = values + m;
+    double *values = s + m * d, *solution = values + m;
     for (size_t i = 0; i < m && ok; i++) {
         for (size_t j = 0; j < d; j++)
             s[i * d + j] = (x[order[i].row * d + j] - centre[j]) / unit;
         values[i] = y[order[i].row];
     }
-    ok = ok && solve_conditions(d, m, s, values, a);
+    ok = ok && solve_conditions(d, m, s, values, solution + unknowns, solution);
     if (ok) {
-        size_t w = unknowns + 1;
         memcpy(q->centre, centre, d * sizeof *centre);
         memset(q->hessian, 0, d * d * sizeof *q->hessian);
-        q->constant = a[m * w + unknowns];
+        q->constant = solution[m];
         for (size_t j = 0; j < d; j++)
-            q->gradient[j] = a[(m + 1 + j) * w + unknowns] / unit;
+            q->gradient[j] = solution[m + 1 + j] / unit;
         for (size_t i = 0; i < m; i++) {
-            double lambda = a[i * w + unknowns] / (unit * unit);
+            double lambda = solution[i] / (unit * unit);
             for (size_t j = 0; j < d; j++)
                 for (size_t k = 0; k < d; k++)
                     q->hessian[j * d + k] += lambda * s[i * d + j] * s[i * d + k];

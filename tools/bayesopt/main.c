@@ -37,6 +37,7 @@ static const struct {
 int main(int argc, char **argv)
 {
     cli_set_name("bayesopt");
+    cli_set_threads(1); /* matrices of a few hundred rows gain nothing from more */
     if (argc < 2)
         return cli_usage("a command is missing");
     if (strcmp(argv[1], "--help") == 0)

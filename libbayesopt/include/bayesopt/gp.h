@@ -5,8 +5,10 @@
  *
  * Covariance of the data: K = sf2 g(r) + (sn2 + jitter) I, r^2 = sum_j ((x_j - x'_j)/l_j)^2, with g
  * one of bayesopt_kernel. Rasmussen and Williams, Gaussian Processes for Machine Learning, 2006,
- * ch. 2, 5. All matrix work is done by single-threaded kernels: results do not depend on thread
- * settings.
+ * ch. 2, 5. Matrices are worked on by OpenBLAS and LAPACK: with the same number of its threads
+ * results have the same bits, with another they agree to rounding. A few hundred points gain
+ * nothing from threads; programs that run several regressions side by side set
+ * OPENBLAS_NUM_THREADS=1.
  */
 #ifndef BAYESOPT_GP_H
 #define BAYESOPT_GP_H
