@@ -67,8 +67,27 @@ static size_t damage(uint64_t *state, size_t n, char *bytes)
     return n;
 }
 
+static void check_mesh(const char *path)
+{
+    nurbs_mesh *mesh = NULL;
+    nurbs_hydrostatics result;
+    nurbs_contour contour;
+    nurbs_status status = nurbs_mesh_read(path, 1, &mesh);
+    CU_ASSERT_TRUE(status == NURBS_OK || (!mesh && strlen(nurbs_last_error()) > 10));
+    if (status == NURBS_OK) {
+        nurbs_mesh_hydrostatics(mesh, 0, &result);
+        if (nurbs_mesh_section(mesh, (const double[]){1, 0, 0}, 0.1, &contour) == NURBS_OK)
+            nurbs_contour_free(&contour);
+    }
+    nurbs_mesh_free(mesh);
+}
+
 static void check_reader(const char *path, int grid)
 {
+    if (strstr(path, ".stl") || strstr(path, ".obj")) {
+        check_mesh(path);
+        return;
+    }
     nurbs_patches *patches = NULL;
     nurbs_grid *points = NULL;
     char report[512];
@@ -202,6 +221,36 @@ static void test_step(void)
     fuzz(TEST_DATA_DIR "/occt_barge.step", ".step", 0);
 }
 
+static void test_stl(void)
+{
+    const char *folder = getenv("TMPDIR");
+    char path[512];
+    nurbs_patches *patches = NULL;
+    CU_ASSERT_EQUAL_FATAL(nurbs_patches_read(EXAMPLES_DIR "/hulls/spheroid.json", &patches),
+                          NURBS_OK);
+    snprintf(path, sizeof path, "%s/fuzz_source_%ld.stl", folder ? folder : "/tmp", (long)getpid());
+    CU_ASSERT_EQUAL_FATAL(nurbs_patches_write_stl(patches, 2, path), NURBS_OK);
+    nurbs_patches_free(patches);
+    fuzz(path, ".stl", 0);
+    unlink(path);
+}
+
+static void test_obj(void)
+{
+    const char *folder = getenv("TMPDIR");
+    char path[512];
+    snprintf(path, sizeof path, "%s/fuzz_source_%ld.obj", folder ? folder : "/tmp", (long)getpid());
+    FILE *stream = fopen(path, "w");
+    CU_ASSERT_PTR_NOT_NULL_FATAL(stream);
+    for (int k = 0; k < 20; k++)
+        fprintf(stream, "v %d %g %g\n", k / 5, 0.1 * (k % 5), -0.2 * (k % 5));
+    for (int k = 0; k < 14; k++)
+        fprintf(stream, "f %d/1 %d/2/3 -%d\n", k + 1, k + 2, k + 1);
+    fclose(stream);
+    fuzz(path, ".obj", 0);
+    unlink(path);
+}
+
 static void test_grid(void)
 {
     const char *folder = getenv("TMPDIR");
@@ -227,6 +276,8 @@ static const struct check_case cases[] = {
     {"every byte of IGES files", test_iges_bytes},
     {"damaged STEP files", test_step},
     {"every byte of STEP files", test_step_bytes},
+    {"damaged STL files", test_stl},
+    {"damaged OBJ files", test_obj},
     {"damaged grids", test_grid},
 };
 

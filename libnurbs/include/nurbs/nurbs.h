@@ -19,6 +19,7 @@
 #include <nurbs/integrals.h>
 #include <nurbs/invert.h>
 #include <nurbs/io.h>
+#include <nurbs/mesh.h>
 #include <nurbs/modify.h>
 #include <nurbs/patches.h>
 #include <nurbs/primitives.h>

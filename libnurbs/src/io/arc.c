@@ -1,6 +1,6 @@
 #include "core/error.h"
+#include "core/vector.h"
 #include "io/form.h"
-#include "io/vector.h"
 
 #include <math.h>
 #include <stdlib.h>

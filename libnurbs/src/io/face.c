@@ -1,7 +1,7 @@
 #include "io/face.h"
 
 #include "core/error.h"
-#include "io/vector.h"
+#include "core/vector.h"
 
 #include <nurbs/fit.h>
 #include <nurbs/modify.h>

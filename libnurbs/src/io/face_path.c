@@ -1,7 +1,7 @@
 /* Loops in space as paths in the natural parameters of a surface. */
 #include "core/error.h"
+#include "core/vector.h"
 #include "io/face.h"
-#include "io/vector.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 #include "io/form.h"
 
 #include "core/error.h"
-#include "io/vector.h"
+#include "core/vector.h"
 
 #include <nurbs/invert.h>
 #include <nurbs/modify.h>

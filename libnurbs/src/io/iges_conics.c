@@ -1,8 +1,8 @@
 /* Conic arcs 104, copious data 106 and parametric splines 112 as NURBS curves. */
 #include "core/error.h"
+#include "core/vector.h"
 #include "io/form.h"
 #include "io/iges.h"
-#include "io/vector.h"
 
 #include <nurbs/modify.h>
 

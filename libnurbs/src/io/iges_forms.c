@@ -1,8 +1,8 @@
 /* Surfaces of IGES files that are given by their form: ruled, revolved and extruded surfaces,
  * planes and quadrics, offsets. */
 #include "core/error.h"
+#include "core/vector.h"
 #include "io/iges.h"
-#include "io/vector.h"
 
 #include <nurbs/fit.h>
 #include <nurbs/modify.h>

@@ -2,7 +2,7 @@
 #include "io/iges_scope.h"
 
 #include "core/error.h"
-#include "io/vector.h"
+#include "core/vector.h"
 
 #include <nurbs/modify.h>
 #include <nurbs/trim.h>

@@ -1,8 +1,8 @@
 /* Curves of STEP files, and edges between their vertices. */
 #include "core/error.h"
+#include "core/vector.h"
 #include "io/curve_join.h"
 #include "io/step.h"
-#include "io/vector.h"
 
 #include <nurbs/invert.h>
 #include <nurbs/modify.h>

@@ -1,7 +1,7 @@
 /* Surfaces and faces of STEP files. */
 #include "core/error.h"
+#include "core/vector.h"
 #include "io/step.h"
-#include "io/vector.h"
 
 #include <nurbs/modify.h>
 

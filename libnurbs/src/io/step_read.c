@@ -1,8 +1,8 @@
 /* nurbs_patches_read_step(): representations, their places in assemblies, and the faces in them. */
 #include "core/error.h"
 #include "core/textfile.h"
-#include "io/step.h"
-#include "io/vector.h"
+#include "core/vector.h"
+#include "io/step_assembly.h"
 
 #include <nurbs/io.h>
 #include <nurbs/modify.h>
@@ -18,65 +18,14 @@ enum { MOST_DEPTH = 32, MOST_PLACED = 20000 };
  * tolerance. */
 static const double default_share = 1e-6;
 
-/* p -> matrix p + shift */
-typedef struct placement {
-    double matrix[9], shift[3];
-} placement;
-
-static const placement identity = {{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0}};
-
-static placement after(const placement *outer, const placement *inner)
-{
-    placement result;
-    for (int i = 0; i < 3; i++) {
-        const double *row = outer->matrix + 3 * i;
-        for (int j = 0; j < 3; j++)
-            result.matrix[3 * i + j] = row[0] * inner->matrix[j] + row[1] * inner->matrix[3 + j] +
-                                       row[2] * inner->matrix[6 + j];
-        result.shift[i] = dot3(row, inner->shift) + outer->shift[i];
-    }
-    return result;
-}
-
-/* From the coordinates of a frame to those in which it is given. */
-static placement of_frame(const double origin[3], double frame[3][3])
-{
-    placement p;
-    for (int i = 0; i < 3; i++) {
-        for (int j = 0; j < 3; j++)
-            p.matrix[3 * i + j] = frame[j][i];
-        p.shift[i] = origin[i];
-    }
-    return p;
-}
-
-/* Of a rigid motion. */
-static placement inverse(const placement *p)
-{
-    placement result;
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            result.matrix[3 * i + j] = p->matrix[3 * j + i];
-    for (int i = 0; i < 3; i++)
-        result.shift[i] = -dot3(result.matrix + 3 * i, p->shift);
-    return result;
-}
-
-/* A representation stands inside another one at a place. */
-typedef struct link {
-    size_t inside, parent; /* instances */
-    placement at;
-} link;
+static const step_place identity = {{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0}};
 
 typedef struct scene {
     step_file *file;
     double tolerance;
     nurbs_patches *patches;
-    placement at; /* of what is being read */
-    size_t links, room;
-    link *link;
-    size_t *same;        /* [instances] a representation that shares coordinates; itself at last */
-    unsigned char *used; /* [instances] representations that stand inside others */
+    step_place at; /* of what is being read */
+    step_assembly assembly;
     unsigned char *seen; /* [instances] faces that were read */
     size_t faces, exact, pieces, left_out, placed;
 } scene;
@@ -207,7 +156,7 @@ static nurbs_status read_mapped(scene *s, size_t instance, const step_record *re
     step_file *file = s->file;
     size_t map, target, origin_item, representation;
     double origin[3], frame[3][3];
-    placement before = s->at, from, to, relative;
+    step_place before = s->at, from, to, relative;
     nurbs_status status = step_reference(file, instance, step_parameter(file, record, 1), &map);
     if (status == NURBS_OK)
         status = step_reference(file, instance, step_parameter(file, record, 2), &target);
@@ -221,15 +170,15 @@ static nurbs_status read_mapped(scene *s, size_t instance, const step_record *re
         status = step_reference(file, map, step_parameter(file, m, 1), &representation);
     if (status == NURBS_OK)
         status = step_placement(file, origin_item, origin, frame);
-    from = status == NURBS_OK ? of_frame(origin, frame) : identity;
+    from = status == NURBS_OK ? step_of_frame(origin, frame) : identity;
     if (status == NURBS_OK)
         status = step_placement(file, target, origin, frame);
     if (status != NURBS_OK)
         return status;
-    to = of_frame(origin, frame);
-    from = inverse(&from);
-    relative = after(&to, &from);
-    s->at = after(&before, &relative);
+    to = step_of_frame(origin, frame);
+    from = step_inverse(&from);
+    relative = step_after(&to, &from);
+    s->at = step_after(&before, &relative);
     double metres = file->metres, radians = file->radians;
     status = read_representation(s, representation, depth + 1);
     file->metres = metres;
@@ -297,271 +246,30 @@ static nurbs_status read_item(scene *s, size_t instance, bool inside_out, int de
     return NURBS_OK; /* placements, points, curves, annotations */
 }
 
-/* SI_UNIT(prefix, name), or CONVERSION_BASED_UNIT(name, measure with unit). */
-static nurbs_status unit_factor(const step_file *file, size_t unit, int depth, double *factor)
-{
-    static const struct {
-        const char *name;
-        double factor;
-    } prefixes[] = {{"EXA", 1e18},  {"PETA", 1e15},  {"TERA", 1e12},   {"GIGA", 1e9},
-                    {"MEGA", 1e6},  {"KILO", 1e3},   {"HECTO", 1e2},   {"DECA", 1e1},
-                    {"DECI", 1e-1}, {"CENTI", 1e-2}, {"MILLI", 1e-3},  {"MICRO", 1e-6},
-                    {"NANO", 1e-9}, {"PICO", 1e-12}, {"FEMTO", 1e-15}, {"ATTO", 1e-18}};
-    const step_record *si = step_record_of(file, unit, "SI_UNIT"),
-                      *based = step_record_of(file, unit, "CONVERSION_BASED_UNIT");
-    *factor = 1;
-    if (si) {
-        /* A derived first attribute (dimensions, *) stands before the prefix in a simple instance.
-         */
-        const step_node *prefix = step_parameter(file, si, file->instance[unit].count > 1 ? 0 : 1);
-        if (!prefix || prefix->kind != STEP_ENUM)
-            return NURBS_OK;
-        for (size_t k = 0; k < sizeof prefixes / sizeof *prefixes; k++)
-            if (strlen(prefixes[k].name) == prefix->length &&
-                memcmp(prefixes[k].name, prefix->text, prefix->length) == 0) {
-                *factor = prefixes[k].factor;
-                return NURBS_OK;
-            }
-        return step_refuse(file, unit, "unknown prefix .%.*s.", (int)prefix->length, prefix->text);
-    }
-    if (!based || depth > MOST_DEPTH)
-        return step_refuse(file, unit, "is no unit that is known");
-    size_t measure, base;
-    double value, inner;
-    nurbs_status status = step_reference(
-        file, unit, step_parameter(file, based, file->instance[unit].count > 1 ? 1 : 2), &measure);
-    if (status != NURBS_OK)
-        return status;
-    const step_record *m = step_record_of(file, measure, "MEASURE_WITH_UNIT");
-    if (!m)
-        m = &file->record[file->instance[measure].first];
-    status = step_number(file, measure, step_parameter(file, m, 0), &value);
-    if (status == NURBS_OK)
-        status = step_reference(file, measure, step_parameter(file, m, 1), &base);
-    if (status == NURBS_OK)
-        status = unit_factor(file, base, depth + 1, &inner);
-    if (status == NURBS_OK && !(value > 0))
-        return step_refuse(file, measure, "%g of a unit, expected > 0", value);
-    *factor = status == NURBS_OK ? value * inner : 1;
-    return status;
-}
-
-/* The units of a representation's context; a context without units leaves those of before. */
-static nurbs_status set_units(step_file *file, size_t context)
-{
-    const step_record *record = step_record_of(file, context, "GLOBAL_UNIT_ASSIGNED_CONTEXT");
-    if (!record)
-        return NURBS_OK;
-    /* In a simple instance the attributes of the context itself stand before. */
-    const step_node *list = step_parameter(file, record, file->instance[context].count > 1 ? 0 : 2);
-    nurbs_status status = step_list(file, context, list);
-    for (const step_node *node = status == NURBS_OK ? step_child(file, list, 0) : NULL;
-         node && status == NURBS_OK; node = step_next(file, node)) {
-        size_t unit;
-        status = step_reference(file, context, node, &unit);
-        if (status == NURBS_OK && step_record_of(file, unit, "LENGTH_UNIT"))
-            status = unit_factor(file, unit, 0, &file->metres);
-        else if (status == NURBS_OK && step_record_of(file, unit, "PLANE_ANGLE_UNIT"))
-            status = unit_factor(file, unit, 0, &file->radians);
-    }
-    return status;
-}
-
-/* A representation has a name, a list of items and a context. */
-static const step_record *representation(const step_file *file, size_t instance)
-{
-    const step_instance *i = &file->instance[instance];
-    for (size_t k = 0; k < i->count; k++) {
-        const step_record *record = &file->record[i->first + k];
-        static const char end[] = "REPRESENTATION";
-        size_t n = sizeof end - 1;
-        if (record->length < n || memcmp(record->name + record->length - n, end, n) != 0)
-            continue;
-        const step_node *items = step_parameter(file, record, 1),
-                        *context = step_parameter(file, record, 2);
-        if (items && items->kind == STEP_LIST && context && context->kind == STEP_REFERENCE)
-            return record;
-    }
-    return NULL;
-}
-
-static nurbs_status representation_units(step_file *file, size_t instance)
-{
-    const step_record *record = representation(file, instance);
-    size_t context;
-    if (!record)
-        return NURBS_OK;
-    nurbs_status status = step_reference(file, instance, step_parameter(file, record, 2), &context);
-    return status == NURBS_OK ? set_units(file, context) : status;
-}
-
-static size_t root_of(const scene *s, size_t instance)
-{
-    while (s->same[instance] != instance)
-        instance = s->same[instance];
-    return instance;
-}
-
 /* Everything in a representation and those that share its coordinates, and what stands inside. */
 static nurbs_status read_representation(scene *s, size_t instance, int depth)
 {
     step_file *file = s->file;
-    size_t root = root_of(s, instance);
-    placement before = s->at;
+    size_t root = step_root(&s->assembly, instance);
+    step_place before = s->at;
     nurbs_status status = NURBS_OK;
     if (depth > MOST_DEPTH || ++s->placed > MOST_PLACED)
         return step_refuse(file, instance, "representations inside each other without end");
     for (size_t k = 0; k < file->count && status == NURBS_OK; k++) {
-        const step_record *record = root_of(s, k) == root ? representation(file, k) : NULL;
+        const step_record *record =
+            step_root(&s->assembly, k) == root ? step_representation(file, k) : NULL;
         if (!record)
             continue;
-        status = representation_units(file, k);
+        status = step_use_units_of(file, k);
         if (status == NURBS_OK)
             status = read_items(s, k, step_parameter(file, record, 1), false, depth);
     }
-    for (size_t k = 0; k < s->links && status == NURBS_OK; k++)
-        if (root_of(s, s->link[k].parent) == root) {
-            s->at = after(&before, &s->link[k].at);
-            status = read_representation(s, s->link[k].inside, depth + 1);
+    for (size_t k = 0; k < s->assembly.links && status == NURBS_OK; k++)
+        if (step_root(&s->assembly, s->assembly.link[k].parent) == root) {
+            s->at = step_after(&before, &s->assembly.link[k].at);
+            status = read_representation(s, s->assembly.link[k].inside, depth + 1);
             s->at = before;
         }
-    return status;
-}
-
-/* Representation of a product definition, by SHAPE_DEFINITION_REPRESENTATION; count: none. */
-static size_t shape_of(const step_file *file, size_t product)
-{
-    for (size_t k = 0; k < file->count; k++) {
-        const step_record *record = step_record_of(file, k, "SHAPE_DEFINITION_REPRESENTATION"), *s;
-        size_t shape, shown, definition;
-        if (record &&
-            step_reference(file, k, step_parameter(file, record, 0), &shape) == NURBS_OK &&
-            (s = step_record_of(file, shape, "PRODUCT_DEFINITION_SHAPE")) &&
-            step_reference(file, shape, step_parameter(file, s, 2), &definition) == NURBS_OK &&
-            definition == product &&
-            step_reference(file, k, step_parameter(file, record, 1), &shown) == NURBS_OK)
-            return shown;
-    }
-    return file->count;
-}
-
-/* Whether the first representation of a placed relationship is the assembly: as the usage says. */
-static bool first_is_parent(const scene *s, size_t relationship, size_t first, size_t second)
-{
-    const step_file *file = s->file;
-    for (size_t k = 0; k < file->count; k++) {
-        const step_record *record =
-                              step_record_of(file, k, "CONTEXT_DEPENDENT_SHAPE_REPRESENTATION"),
-                          *p, *u;
-        size_t of, shape, usage, parent;
-        if (!record || step_reference(file, k, step_parameter(file, record, 0), &of) != NURBS_OK ||
-            of != relationship ||
-            step_reference(file, k, step_parameter(file, record, 1), &shape) != NURBS_OK ||
-            !(p = step_record_of(file, shape, "PRODUCT_DEFINITION_SHAPE")) ||
-            step_reference(file, shape, step_parameter(file, p, 2), &usage) != NURBS_OK ||
-            !(u = step_record_of(file, usage, "NEXT_ASSEMBLY_USAGE_OCCURRENCE")) ||
-            step_reference(file, usage, step_parameter(file, u, 3), &parent) != NURBS_OK)
-            continue;
-        size_t shown = shape_of(file, parent);
-        return shown < file->count && root_of(s, shown) == root_of(s, first) &&
-               root_of(s, shown) != root_of(s, second);
-    }
-    return false;
-}
-
-/* ITEM_DEFINED_TRANSFORMATION: the placement of item 1 in representation 1 falls on that of item 2
- * in representation 2. Gives the place of 1 in 2. */
-static nurbs_status item_transformation(step_file *file, size_t operation, size_t first,
-                                        size_t second, placement *at)
-{
-    const step_record *record = step_record_of(file, operation, "ITEM_DEFINED_TRANSFORMATION");
-    placement item[2];
-    nurbs_status status = NURBS_OK;
-    if (!record)
-        return step_refuse(file, operation, "expected an ITEM_DEFINED_TRANSFORMATION");
-    for (size_t k = 0; k < 2 && status == NURBS_OK; k++) {
-        size_t index;
-        double origin[3], frame[3][3];
-        status = representation_units(file, k ? second : first);
-        if (status == NURBS_OK)
-            status = step_reference(file, operation, step_parameter(file, record, 2 + k), &index);
-        if (status == NURBS_OK)
-            status = step_placement(file, index, origin, frame);
-        if (status == NURBS_OK)
-            item[k] = of_frame(origin, frame);
-    }
-    if (status != NURBS_OK)
-        return status;
-    item[0] = inverse(&item[0]);
-    *at = after(&item[1], &item[0]);
-    return NURBS_OK;
-}
-
-static nurbs_status add_link(scene *s, const link *l)
-{
-    if (s->links == s->room) {
-        size_t room = s->room ? 2 * s->room : 16;
-        link *larger = realloc(s->link, room * sizeof *larger);
-        if (!larger)
-            return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu placements", room);
-        s->link = larger;
-        s->room = room;
-    }
-    s->link[s->links++] = *l;
-    return NURBS_OK;
-}
-
-/* Both representations of a relationship; false if the instance is none. */
-static bool relationship(const step_file *file, size_t instance, size_t pair[2])
-{
-    static const char *const names[] = {"REPRESENTATION_RELATIONSHIP",
-                                        "SHAPE_REPRESENTATION_RELATIONSHIP"};
-    for (size_t k = 0; k < 2; k++) {
-        const step_record *record = step_record_of(file, instance, names[k]);
-        if (record && step_parameter(file, record, 3) &&
-            step_reference(file, instance, step_parameter(file, record, 2), &pair[0]) == NURBS_OK &&
-            step_reference(file, instance, step_parameter(file, record, 3), &pair[1]) == NURBS_OK)
-            return true;
-    }
-    return false;
-}
-
-/* First what shares coordinates, then what is placed. */
-static nurbs_status find_links(scene *s)
-{
-    step_file *file = s->file;
-    static const char transformed[] = "REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION";
-    size_t pair[2];
-    nurbs_status status = NURBS_OK;
-    for (size_t k = 0; k < file->count; k++)
-        if (relationship(file, k, pair) && !step_record_of(file, k, transformed))
-            s->same[root_of(s, pair[0])] = root_of(s, pair[1]);
-    for (size_t k = 0; k < file->count && status == NURBS_OK; k++) {
-        const step_record *record = step_record_of(file, k, transformed);
-        size_t operation;
-        link l;
-        if (!record || !relationship(file, k, pair))
-            continue;
-        status = step_reference(file, k, step_parameter(file, record, 0), &operation);
-        if (status == NURBS_OK)
-            status = item_transformation(file, operation, pair[0], pair[1], &l.at);
-        if (status != NURBS_OK)
-            return status;
-        bool turned = first_is_parent(s, k, pair[0], pair[1]);
-        l.inside = pair[turned];
-        l.parent = pair[!turned];
-        if (turned)
-            l.at = inverse(&l.at);
-        status = add_link(s, &l);
-    }
-    for (size_t k = 0; k < file->count && status == NURBS_OK; k++) {
-        const step_record *map = step_record_of(file, k, "REPRESENTATION_MAP");
-        size_t mapped;
-        if (map && step_reference(file, k, step_parameter(file, map, 1), &mapped) == NURBS_OK)
-            s->used[root_of(s, mapped)] = 1;
-    }
-    for (size_t k = 0; k < s->links; k++)
-        s->used[root_of(s, s->link[k].inside)] = 1;
     return status;
 }
 
@@ -572,7 +280,7 @@ static nurbs_status read_loose_faces(scene *s)
     size_t before = s->faces;
     for (size_t k = 0; k < s->file->count && status == NURBS_OK && before == 0; k++)
         if (step_record_of(s->file, k, "GLOBAL_UNIT_ASSIGNED_CONTEXT"))
-            status = set_units(s->file, k);
+            status = step_set_units(s->file, k);
     s->at = identity;
     for (size_t k = 0; k < s->file->count && status == NURBS_OK; k++)
         if (!s->seen[k] && step_record_of(s->file, k, "ADVANCED_FACE"))
@@ -585,11 +293,11 @@ static nurbs_status read_loose_faces(scene *s)
 
 static nurbs_status read_roots(scene *s)
 {
-    nurbs_status status = find_links(s);
+    nurbs_status status = step_assembly_find(s->file, &s->assembly);
     for (size_t k = 0; k < s->file->count && status == NURBS_OK; k++)
-        if (root_of(s, k) == k && !s->used[k]) {
+        if (step_root(&s->assembly, k) == k && !s->assembly.used[k]) {
             s->at = identity;
-            if (representation(s->file, k))
+            if (step_representation(s->file, k))
                 status = read_representation(s, k, 0);
         }
     if (status == NURBS_OK)
@@ -599,24 +307,18 @@ static nurbs_status read_roots(scene *s)
 
 static nurbs_status read_file(step_file *file, double tolerance, nurbs_patches *patches)
 {
-    scene s = {.file = file,
-               .tolerance = tolerance,
-               .patches = patches,
-               .same = malloc(file->count * sizeof(size_t)),
-               .used = calloc(2 * file->count, 1)};
+    scene s = {
+        .file = file, .tolerance = tolerance, .patches = patches, .seen = calloc(file->count, 1)};
     nurbs_status status = NURBS_OK;
-    if (!s.same || !s.used)
+    if (!s.seen)
         status = nurbs_fail(NURBS_ERROR_MEMORY, "%s: no memory for %zu instances", file->path,
                             file->count);
-    s.seen = s.used + file->count;
-    for (size_t k = 0; k < file->count && status == NURBS_OK; k++)
-        s.same[k] = k;
     if (file->schema[0])
         step_report(file, "%s; ", file->schema);
     if (status == NURBS_OK)
         status = read_roots(&s);
-    if (status == NURBS_OK && s.links > 0)
-        step_report(file, "%zu representations placed by an assembly; ", s.links);
+    if (status == NURBS_OK && s.assembly.links > 0)
+        step_report(file, "%zu representations placed by an assembly; ", s.assembly.links);
     if (status == NURBS_OK) {
         step_report(file, "%zu faces and surfaces, %zu of them exact", s.faces, s.exact);
         if (s.pieces > 0)
@@ -628,9 +330,8 @@ static nurbs_status read_file(step_file *file, double tolerance, nurbs_patches *
         status = nurbs_fail(NURBS_ERROR_FORMAT,
                             "%s: no face that can be read among %zu instances; %zu are left out",
                             file->path, file->count, s.left_out);
-    free(s.link);
-    free(s.same);
-    free(s.used);
+    step_assembly_free(&s.assembly);
+    free(s.seen);
     return status;
 }
 

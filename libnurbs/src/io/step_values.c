@@ -1,7 +1,7 @@
 /* What instances of a STEP file hold. */
 #include "core/error.h"
+#include "core/vector.h"
 #include "io/step.h"
-#include "io/vector.h"
 
 #include <math.h>
 #include <stdarg.h>

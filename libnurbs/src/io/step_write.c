@@ -1,7 +1,7 @@
 /* nurbs_patches_write_step(): every patch a face of one open shell, AP214. */
 #include "core/error.h"
 #include "core/textfile.h"
-#include "io/vector.h"
+#include "core/vector.h"
 
 #include <nurbs/io.h>
 #include <nurbs/modify.h>

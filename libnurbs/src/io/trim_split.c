@@ -1,7 +1,7 @@
 /* Loops with any number of corners, and holes, divided into four-sided loops. */
 #include "core/error.h"
+#include "core/vector.h"
 #include "io/trim_loop.h"
-#include "io/vector.h"
 
 #include <nurbs/trim.h>
 
