@@ -7,7 +7,6 @@
 #include "limits.h"
 #include "outcome.h"
 #include "parent.h"
-#include "stations.h"
 #include "volume.h"
 
 static const double LENGTH = 1, BEAM = 0.1, DRAFT = 0.0625;
@@ -152,29 +151,6 @@ static void test_parameters(void)
     }
 }
 
-static void test_stations(void)
-{
-    nurbs_surface *hull;
-    struct stations s;
-    CU_ASSERT_EQUAL_FATAL(nurbs_make_wigley(LENGTH, BEAM, DRAFT, &hull), NURBS_OK);
-    CU_ASSERT_TRUE_FATAL(stations_create(hull, &s));
-    double(*yz)[2] = malloc(s.nv * sizeof *yz);
-    CU_ASSERT_PTR_NOT_NULL_FATAL(yz);
-    for (int k = -4; k <= 4; k++) {
-        double x = 0.11 * k, share = 1 - 4 * x * x / (LENGTH * LENGTH);
-        CU_ASSERT_EQUAL(stations_section(&s, x, yz), s.nv);
-        CHECK_RELATIVE(stations_area(s.nv, (const double(*)[2])yz), 2.0 / 3 * BEAM * DRAFT * share,
-                       2e-4);
-        for (size_t j = 0; j < s.nv; j += 20)
-            CHECK_CLOSE(yz[j][0], BEAM / 2 * share * (1 - yz[j][1] * yz[j][1] / (DRAFT * DRAFT)),
-                        1e-6);
-    }
-    CU_ASSERT_EQUAL(stations_section(&s, 0.6, yz), 0);
-    free(yz);
-    stations_free(&s);
-    nurbs_surface_free(hull);
-}
-
 static void test_design(void)
 {
     enum { ROWS = 41, COLUMNS = 17 };
@@ -290,7 +266,6 @@ static const struct check_case cases[] = {
     {"steepest waterline", test_entrance},
     {"designs that can be the best", test_allowed_designs},
     {"grid parameters keep kinks", test_parameters},
-    {"sections of the Wigley hull", test_stations},
     {"from a grid to the light patch", test_design},
 };
 

@@ -266,7 +266,7 @@ static void test_fields(void)
 static void test_waves(void)
 {
     static double zeta[60 * 20];
-    static const double edge[] = {-1, 0, 0, 0.1, 1, 0};
+    static double edge[] = {-1, 0, 0, 0.1, 1, 0};
     for (size_t k = 0; k < 60 * 20; k++)
         zeta[k] = k % 20 == 0 ? NAN : 0.01 * sin((double)k);
     const struct plot_waves waves[2] = {{"original", 60, 20, 3, -4, 0.1, 0, 0.1, zeta, edge},
@@ -297,6 +297,31 @@ static void test_lines(void)
         check_sheet(&plot);
         nurbs_patches_free(patches);
     }
+}
+
+static void test_sections(void)
+{
+    static const double length = 1, beam = 0.1, draft = 0.0625;
+    nurbs_surface *wigley = NULL;
+    double *edge = NULL;
+    size_t n = 0;
+    CU_ASSERT_EQUAL_FATAL(nurbs_make_wigley(length, beam, draft, &wigley), NURBS_OK);
+    const nurbs_surface *surface = wigley;
+    const struct plot_hull hull = {.n = 1, .surfaces = &surface};
+    for (int k = -4; k <= 4; k++) {
+        double x = 0.11 * k, share = 1 - 4 * x * x / (length * length);
+        CHECK_RELATIVE(plot_section_area(&hull, x), 2.0 / 3 * beam * draft * share, 2e-4);
+    }
+    CU_ASSERT_EQUAL(plot_section_area(&hull, 0.6), 0);
+    CU_ASSERT_TRUE(plot_waterline(&hull, &n, &edge));
+    CU_ASSERT_TRUE(n > 20);
+    for (size_t k = 0; k < n; k++) {
+        double x = edge[2 * k];
+        CU_ASSERT_TRUE(k == 0 || x >= edge[2 * k - 2]);
+        CHECK_CLOSE(edge[2 * k + 1], beam / 2 * (1 - 4 * x * x), 1e-6);
+    }
+    free(edge);
+    nurbs_surface_free(wigley);
 }
 
 static void test_files(void)
@@ -331,10 +356,10 @@ static void test_files(void)
 }
 
 static const struct check_case cases[] = {
-    {"ticks", test_ticks},       {"frames", test_frame},  {"escaped text", test_escape},
-    {"colour maps", test_maps},  {"charts", test_charts}, {"crowded labels", test_crowd},
-    {"history", test_history},   {"fields", test_fields}, {"wave patterns", test_waves},
-    {"lines plans", test_lines}, {"files", test_files},
+    {"ticks", test_ticks},       {"frames", test_frame},      {"escaped text", test_escape},
+    {"colour maps", test_maps},  {"charts", test_charts},     {"crowded labels", test_crowd},
+    {"history", test_history},   {"fields", test_fields},     {"wave patterns", test_waves},
+    {"lines plans", test_lines}, {"sections", test_sections}, {"files", test_files},
 };
 
 CHECK_MAIN("plot", cases)

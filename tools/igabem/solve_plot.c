@@ -102,41 +102,6 @@ bool solve_write_plot(const struct solve_run *run, const char *path)
     return good;
 }
 
-static int compare(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-/* Points of the waterline, from aft; *edge is NULL where there is none. */
-static bool waterline(const struct hull_input *input, double length, size_t *n, double **edge)
-{
-    /* Just below the water, where the wetted patches end. */
-    static const double below = 1e-5, normal[3] = {0, 0, 1};
-    *n = 0;
-    *edge = NULL;
-    for (size_t p = 0; p < nurbs_patches_count(input->patches); p++) {
-        nurbs_contour c;
-        if (nurbs_surface_contour(nurbs_patches_get(input->patches, p), normal, -below * length, 32,
-                                  &c))
-            return cli_refuse("%s", nurbs_last_error());
-        size_t points = c.lines ? c.first[c.lines] : 0;
-        double *more = realloc(*edge, 2 * (*n + points + 1) * sizeof *more);
-        for (size_t i = 0; more && i < points; i++)
-            if (c.points[3 * i + 1] >= 0) {
-                more[2 * *n] = c.points[3 * i];
-                more[2 * (*n)++ + 1] = c.points[3 * i + 1];
-            }
-        nurbs_contour_free(&c);
-        if (!more)
-            return cli_refuse("out of memory");
-        *edge = more;
-    }
-    if (*n)
-        qsort(*edge, *n, 2 * sizeof **edge, compare);
-    return true;
-}
-
 bool solve_draw_waves(const struct solve_run *run, const struct wave_grid *grid, const char *path)
 {
     enum { WIDTH = 1100 };
@@ -145,7 +110,13 @@ bool solve_draw_waves(const struct solve_run *run, const struct wave_grid *grid,
     size_t n_edge = 0;
     const struct solve_result *last = solve_run_result(run, run->levels - 1, run->cases - 1);
     snprintf(name, sizeof name, "Fr %.4g", last->options.froude);
-    bool good = waterline(run->input, run->info.length, &n_edge, &edge);
+    size_t patches = nurbs_patches_count(run->input->patches);
+    const nurbs_surface **surfaces = malloc((patches + 1) * sizeof *surfaces);
+    for (size_t p = 0; surfaces && p < patches; p++)
+        surfaces[p] = nurbs_patches_get(run->input->patches, p);
+    const struct plot_hull hull = {.n = patches, .surfaces = surfaces};
+    bool good = surfaces ? plot_waterline(&hull, &n_edge, &edge) : cli_refuse("out of memory");
+    free(surfaces);
     const struct plot_waves waves = {name,       grid->nx,
                                      grid->ny,   n_edge,
                                      grid->x[0], grid->x[grid->ny] - grid->x[0],
@@ -163,22 +134,13 @@ enum { LEVELS = 12 }; /* about so many lines of equal pressure */
  * stagnation points would leave the rest pale. */
 static struct plot_scale pressure_scale(const struct patch_sample *samples, size_t patches)
 {
-    struct plot_scale scale = {PLOT_DIVERGING, {.low = -1, .high = 1, .label = "C_{p}"}};
-    size_t n = 0, room = 1;
+    struct plot_scale scale = {PLOT_DIVERGING, {.label = "C_{p}"}};
+    double most = 0;
     for (size_t p = 0; p < patches; p++)
-        room += samples[p].nu * samples[p].nv;
-    double *all = malloc(room * sizeof *all);
-    for (size_t p = 0; all && p < patches; p++)
-        for (size_t i = 0; i < samples[p].nu * samples[p].nv; i++)
-            if (isfinite(samples[p].cp[i]))
-                all[n++] = fabs(samples[p].cp[i]);
-    if (n) {
-        qsort(all, n, sizeof *all, compare);
-        scale.axis.high = all[(n - 1) * 90 / 100];
-        scale.axis.low = -scale.axis.high;
-        plot_nice(&scale.axis, LEVELS);
-    }
-    free(all);
+        most = fmax(most, plot_percentile(samples[p].nu * samples[p].nv, samples[p].cp, true, 0.9));
+    scale.axis.high = most;
+    scale.axis.low = -most;
+    plot_nice(&scale.axis, LEVELS);
     return scale;
 }
 

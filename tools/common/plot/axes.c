@@ -25,6 +25,27 @@ void plot_include(struct plot_axis *axis, size_t n, const double *values)
     }
 }
 
+static int compare(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+double plot_percentile(size_t n, const double *values, bool sizes, double share)
+{
+    double *sorted = malloc((n + 1) * sizeof *sorted), found = 0;
+    size_t known = 0;
+    for (size_t i = 0; sorted && i < n; i++)
+        if (isfinite(values[i]))
+            sorted[known++] = sizes ? fabs(values[i]) : values[i];
+    if (known) {
+        qsort(sorted, known, sizeof *sorted, compare);
+        found = sorted[(size_t)(share * (double)(known - 1))];
+    }
+    free(sorted);
+    return found;
+}
+
 void plot_settle(struct plot_axis *axis)
 {
     static const double most = 1e300, resolution = 1e-9;

@@ -2,6 +2,7 @@
 #include "plot/plot.h"
 
 #include <cairo.h>
+#include <glib.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -63,34 +64,25 @@ void plot_bar(struct plot *plot, double x, double y, double width, double height
                   11, PLOT_START, PLOT_INK, "%s", scale->axis.label);
 }
 
-struct base64 {
-    FILE *out;
-    unsigned char left[3];
-    unsigned n;
-};
-
-static void flush_base64(struct base64 *b)
+static cairo_status_t write_bytes(void *stream, const unsigned char *data, unsigned n)
 {
-    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    if (b->n == 0)
-        return;
-    for (unsigned k = b->n; k < 3; k++)
-        b->left[k] = 0;
-    uint32_t word = (uint32_t)b->left[0] << 16 | (uint32_t)b->left[1] << 8 | b->left[2];
-    for (unsigned k = 0; k < 4; k++)
-        fputc(k <= b->n ? digits[word >> (18 - 6 * k) & 63] : '=', b->out);
-    b->n = 0;
+    return fwrite(data, 1, n, stream) == n ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_WRITE_ERROR;
 }
 
-static cairo_status_t write_base64(void *user_data, const unsigned char *data, unsigned n)
+/* As a PNG in base 64. */
+static void write_image(cairo_surface_t *image, FILE *out)
 {
-    struct base64 *b = user_data;
-    for (unsigned i = 0; i < n; i++) {
-        b->left[b->n++] = data[i];
-        if (b->n == 3)
-            flush_base64(b);
-    }
-    return CAIRO_STATUS_SUCCESS;
+    char *png = NULL;
+    size_t n = 0;
+    FILE *memory = open_memstream(&png, &n);
+    if (!memory)
+        return;
+    cairo_surface_write_to_png_stream(image, write_bytes, memory);
+    fclose(memory);
+    gchar *text = g_base64_encode((const guchar *)png, n);
+    fputs(text, out);
+    g_free(text);
+    free(png);
 }
 
 void plot_raster(struct plot *plot, const struct plot_frame *f, size_t nx, size_t ny,
@@ -115,9 +107,7 @@ void plot_raster(struct plot *plot, const struct plot_frame *f, size_t nx, size_
             "<image x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" "
             "preserveAspectRatio=\"none\" href=\"data:image/png;base64,",
             f->left, f->top, f->width, f->height);
-    struct base64 code = {.out = plot->out};
-    cairo_surface_write_to_png_stream(image, write_base64, &code);
-    flush_base64(&code);
+    write_image(image, plot->out);
     plot_path_end(plot);
     cairo_surface_destroy(image);
 }

@@ -116,6 +116,75 @@ bool plot_perpendiculars(const struct plot_hull *hull, double level, double leng
     return true;
 }
 
+struct outline {
+    size_t n, room;
+    double *xy;
+};
+
+static void take_outline(void *user_data, const double *point, bool first)
+{
+    struct outline *o = user_data;
+    (void)first;
+    if (o->n == o->room) {
+        size_t room = 2 * o->room + 256;
+        double *more = realloc(o->xy, 2 * room * sizeof *more);
+        if (!more)
+            return;
+        o->xy = more;
+        o->room = room;
+    }
+    if (point[1] >= 0) {
+        o->xy[2 * o->n] = point[0];
+        o->xy[2 * o->n++ + 1] = point[1];
+    }
+}
+
+static int compare(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+bool plot_waterline(const struct plot_hull *wetted, size_t *n, double **xy)
+{
+    /* Just below the water, where the wetted surfaces end, in parts of the draught. */
+    static const double below = 1e-4;
+    struct plan body = {.n = 1, .hulls = wetted};
+    struct outline outline = {0};
+    if (!measure(&body) ||
+        !each_point(wetted, 2, below * fmin(body.low[2], 0), take_outline, &outline)) {
+        free(outline.xy);
+        return false;
+    }
+    if (outline.n)
+        qsort(outline.xy, outline.n, 2 * sizeof *outline.xy, compare);
+    *n = outline.n;
+    *xy = outline.xy;
+    return true;
+}
+
+struct area {
+    double lines, line, last[2]; /* of the lines before, of the one at hand */
+};
+
+static void take_area(void *user_data, const double *point, bool first)
+{
+    struct area *area = user_data;
+    if (first) {
+        area->lines += fabs(area->line);
+        area->line = 0;
+    } else
+        area->line += (area->last[0] + point[1]) * (point[2] - area->last[1]);
+    area->last[0] = point[1];
+    area->last[1] = point[2];
+}
+
+double plot_section_area(const struct plot_hull *wetted, double x)
+{
+    struct area area = {0};
+    return each_point(wetted, 0, x, take_area, &area) ? area.lines + fabs(area.line) : NAN;
+}
+
 /* A line on its way onto the sheet. */
 struct stroke {
     struct plot *plot;

@@ -82,6 +82,9 @@ struct plot_axis {
 /* Widens the axis to hold finite values (positive ones if logarithmic); begin with low = INFINITY,
  * high = -INFINITY. */
 void plot_include(struct plot_axis *axis, size_t n, const double *values);
+/* The value that `share` of the finite values do not exceed, of |values| if sizes; 0 if there are
+ * none or memory is short. */
+double plot_percentile(size_t n, const double *values, bool sizes, double share);
 /* Makes any axis drawable: finite, ordered, of some length. nice: and moves its ends to ticks. */
 void plot_settle(struct plot_axis *axis);
 void plot_nice(struct plot_axis *axis, int wanted);

@@ -4,32 +4,24 @@
 #include <math.h>
 #include <stdlib.h>
 
-static int compare(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* A few designs far above all others would flatten the rest: the axis ends half the spread above
  * the 95th percentile, or above the reference, and what lies above stands on its upper edge. */
 static struct plot_axis value_axis(const struct plot_history *h)
 {
+    static const double usual = 0.95, room = 0.5;
     struct plot_axis axis = {
         .low = INFINITY, .high = -INFINITY, .unit = h->unit, .label = h->label};
-    double *sorted = malloc((h->n + 1) * sizeof *sorted);
-    size_t n = 0;
-    for (size_t i = 0; sorted && i < h->n; i++)
-        if (!h->trials[i].failed && isfinite(h->trials[i].value))
-            sorted[n++] = h->trials[i].value;
-    if (n) {
-        qsort(sorted, n, sizeof *sorted, compare);
-        double usual = sorted[(n - 1) * 95 / 100], low = sorted[0];
-        if (isfinite(h->reference))
-            low = fmin(low, 0);
-        axis.low = low;
-        axis.high = fmin(sorted[n - 1], usual + 0.5 * (usual - sorted[0]));
+    double *values = malloc((h->n + 1) * sizeof *values), zero = 0;
+    for (size_t i = 0; values && i < h->n; i++)
+        values[i] = h->trials[i].failed ? NAN : h->trials[i].value;
+    if (values)
+        plot_include(&axis, h->n, values);
+    if (axis.low <= axis.high) {
+        double high = plot_percentile(h->n, values, false, usual);
+        axis.high = fmin(axis.high, high + room * (high - axis.low));
     }
-    free(sorted);
+    free(values);
+    plot_include(&axis, isfinite(h->reference), &zero);
     plot_include(&axis, 1, &h->reference);
     plot_nice(&axis, 5);
     return axis;

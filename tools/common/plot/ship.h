@@ -31,6 +31,11 @@ bool plot_lines_plan(struct plot *plot, double width, const struct plot_lines *l
  * near it, else the end of the waterline (of the body, if it has none). */
 bool plot_perpendiculars(const struct plot_hull *hull, double level, double length, double x[2]);
 
+/* Creates the waterline of wetted surfaces, n pairs x,y from aft; n = 0 if there is none. */
+bool plot_waterline(const struct plot_hull *wetted, size_t *n, double **xy);
+/* Area of both sides of the section of wetted surfaces at x, m^2; NAN after a sentence. */
+double plot_section_area(const struct plot_hull *wetted, double x);
+
 /* A bar of four round lengths in metres that ends at `right`, about `room` long. */
 void plot_scale_bar(struct plot *plot, double right, double y, double scale, double room);
 
@@ -86,7 +91,8 @@ struct plot_waves {
     const char *name;
     size_t nx, ny, n_edge;
     double x0, dx, y0, dy;
-    const double *elevation, *edge;
+    const double *elevation;
+    double *edge;
 };
 /* Draws one field, or two halves above and below the centre line, in one scale, in mm. Opens the
  * sheet. */

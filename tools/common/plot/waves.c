@@ -3,31 +3,16 @@
 #include <math.h>
 #include <stdlib.h>
 
-static int compare(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* The 99th percentile of |elevation|, rounded up to two digits. */
 static double colour_limit(size_t fields, const struct plot_waves *waves)
 {
-    size_t room = 0, n = 0;
+    static const double share = 0.99, still = 1e-3;
+    double most = 0;
     for (size_t k = 0; k < fields; k++)
-        room += waves[k].nx * waves[k].ny;
-    double *all = malloc((room + 1) * sizeof *all), limit = 1e-3;
-    for (size_t k = 0; all && k < fields; k++)
-        for (size_t i = 0; i < waves[k].nx * waves[k].ny; i++)
-            if (isfinite(waves[k].elevation[i]))
-                all[n++] = fabs(waves[k].elevation[i]);
-    if (n)
-        qsort(all, n, sizeof *all, compare);
-    if (n && all[n * 99 / 100] > 0) {
-        double unit = pow(10, floor(log10(all[n * 99 / 100])) - 1);
-        limit = ceil(all[n * 99 / 100] / unit) * unit;
-    }
-    free(all);
-    return limit;
+        most =
+            fmax(most, plot_percentile(waves[k].nx * waves[k].ny, waves[k].elevation, true, share));
+    double unit = most > 0 ? pow(10, floor(log10(most)) - 1) : 1;
+    return most > 0 ? ceil(most / unit) * unit : still;
 }
 
 double plot_wave_at(const struct plot_waves *w, double x, double y)

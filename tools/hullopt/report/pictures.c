@@ -2,7 +2,6 @@
 
 #include "outcome.h"
 #include "plot/ship.h"
-#include "stations.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -58,41 +57,25 @@ void draw_lines(FILE *out, const struct results *r)
         plot_embed(&plot, out);
 }
 
-/* Areas below the still water at n stations x. */
-static bool fill_areas(const nurbs_surface *surface, size_t n, const double *x, double *area)
-{
-    struct stations s;
-    if (!stations_create(surface, &s))
-        return false;
-    double(*yz)[2] = malloc(s.nv * sizeof *yz);
-    for (size_t k = 0; yz && k < n; k++)
-        area[k] =
-            stations_section(&s, x[k], yz) < 2 ? 0 : stations_area(s.nv, (const double(*)[2])yz);
-    bool good = yz != NULL;
-    free(yz);
-    stations_free(&s);
-    return good;
-}
-
 void draw_section_areas(FILE *out, const struct results *r)
 {
     enum { N = 141 };
     const nurbs_surface *surface;
     const struct plot_hull hull = hull_of(r, 0, &surface);
     struct plot_frame f = {.left = 62, .top = 34, .width = HALF - 76, .height = AREAS - 80};
-    double end[2], x[N], station[N], area[2][N];
+    double end[2], station[N], area[2][N];
     struct plot plot;
     if (!plot_perpendiculars(&hull, 0, r->parent.length, end))
         return;
-    for (size_t k = 0; k < N; k++) {
-        station[k] = -1 + 22.0 * (double)k / (N - 1);
-        x[k] = end[0] + (end[1] - end[0]) * station[k] / 20;
-    }
     f.x = (struct plot_axis){.low = -1, .high = 21, .whole = true, .label = "station"};
     f.y = (struct plot_axis){.low = 0, .high = -INFINITY, .label = "section area, m²"};
     for (int k = 0; k < 2; k++) {
-        if (!fill_areas(r->designs[k].wetted, N, x, area[k]))
-            return;
+        const nurbs_surface *wetted = r->designs[k].wetted;
+        const struct plot_hull below = {.n = 1, .surfaces = &wetted};
+        for (size_t i = 0; i < N; i++) {
+            station[i] = -1 + 22.0 * (double)i / (N - 1);
+            area[k][i] = plot_section_area(&below, end[0] + (end[1] - end[0]) * station[i] / 20);
+        }
         plot_include(&f.y, N, area[k]);
     }
     f.y.high *= 1.05;
@@ -202,47 +185,37 @@ void draw_mode(FILE *out, const struct results *r, size_t mode)
     plot_embed(&plot, out);
 }
 
-enum { OUTLINE = 161 };
-
-/* Half of the waterplane, from the edge v = 0 of the wetted surface. */
-static struct plot_waves waves_of(const struct results *r, int which, double edge[OUTLINE][2])
+/* With the waterplane; free .edge. */
+static struct plot_waves waves_of(const struct results *r, int which)
 {
     const struct waves *w = &r->waves[which && r->waves[1].elevation];
     const nurbs_surface *wetted = r->designs[which].wetted;
-    const double *ku = nurbs_surface_knots(wetted, 0), *kv = nurbs_surface_knots(wetted, 1);
-    double first = ku[nurbs_surface_degree(wetted, 0)], last = ku[nurbs_surface_size(wetted, 0)];
-    double uv[OUTLINE][2], xyz[OUTLINE][3];
-    for (size_t k = 0; k < OUTLINE; k++) {
-        uv[k][0] = k + 1 == OUTLINE ? last : first + (last - first) * (double)k / (OUTLINE - 1);
-        uv[k][1] = kv[0];
-    }
-    bool known = nurbs_surface_eval(wetted, 0, OUTLINE, uv[0], xyz[0]) == NURBS_OK;
-    for (size_t k = 0; k < OUTLINE && known; k++) {
-        edge[k][0] = xyz[k][0];
-        edge[k][1] = xyz[k][1];
-    }
-    return (struct plot_waves){
-        legend[which].text, w->nx,  w->ny, known ? OUTLINE : 0, w->x0, w->dx, w->y0, w->dy,
-        w->elevation,       edge[0]};
+    const struct plot_hull hull = {.n = 1, .surfaces = &wetted};
+    struct plot_waves waves = {legend[which].text, w->nx, w->ny, 0, w->x0, w->dx, w->y0, w->dy,
+                               w->elevation,       NULL};
+    plot_waterline(&hull, &waves.n_edge, &waves.edge);
+    return waves;
 }
 
 void draw_waves(FILE *out, const struct results *r)
 {
-    double edge[2][OUTLINE][2];
-    const struct plot_waves waves[2] = {waves_of(r, 0, edge[0]), waves_of(r, 1, edge[1])};
+    const struct plot_waves waves[2] = {waves_of(r, 0), waves_of(r, 1)};
     struct plot plot;
     if (plot_wave_pattern(&plot, FULL, 2, waves))
         plot_embed(&plot, out);
+    free(waves[0].edge);
+    free(waves[1].edge);
 }
 
 void draw_wave_cut(FILE *out, const struct results *r, double share)
 {
-    double edge[OUTLINE][2];
-    const struct plot_waves waves[2] = {waves_of(r, 0, edge), waves_of(r, 1, edge)};
+    const struct plot_waves waves[2] = {waves_of(r, 0), waves_of(r, 1)};
     size_t n = waves->nx;
     struct plot_frame f = {.left = 66, .top = 34, .width = FULL - 66 - 96, .height = CUT - 80};
     double *x = malloc(3 * n * sizeof *x);
     struct plot plot;
+    free(waves[0].edge);
+    free(waves[1].edge);
     if (!x || !plot_open(&plot, FULL, CUT, "Longitudinal wave cut")) {
         free(x);
         return;
