@@ -21,7 +21,7 @@ static struct plot_axis value_axis(const struct plot_history *h)
         axis.high = fmin(axis.high, high + room * (high - axis.low));
     }
     free(values);
-    plot_include(&axis, isfinite(h->reference), &zero);
+    plot_include(&axis, isfinite(h->reference) ? 1 : 0, &zero);
     plot_include(&axis, 1, &h->reference);
     plot_nice(&axis, 5);
     return axis;

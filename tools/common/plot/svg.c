@@ -54,7 +54,7 @@ double plot_text_width(const char *text, double size)
 static struct plot_box text_box(const char *text, double x, double y, double size,
                                 enum plot_anchor anchor)
 {
-    double width = plot_text_width(text, size), left = x - width * 0.5 * anchor;
+    double width = plot_text_width(text, size), left = x - width * 0.5 * (int)anchor;
     return (struct plot_box){left, y - 0.8 * size, left + width, y + 0.22 * size};
 }
 
