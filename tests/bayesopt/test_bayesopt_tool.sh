@@ -158,15 +158,35 @@ expect 0 "$tool" export slope2.db
 grep -q 'not 2 numbers after dg' out || fail "missing derivatives: $(cat out)"
 sed 's/kernel: se/kernel: periodic/' slope.yaml >bad.yaml
 expect 1 "$tool" run bad.yaml --store bad.db
-grep -q 'search.kernel is .periodic., expected one of se, matern32' err || fail "message: $(cat err)"
+grep -q 'search.kernel is .periodic., expected se, matern32 or matern52' err || fail "message: $(cat err)"
 
 # Mistakes in the file are found with line and field.
 sed 's/upper: 2}/upper: two}/' run.yaml >bad.yaml
 expect 1 "$tool" run bad.yaml --store bad.db
-grep -q 'bad.yaml:[0-9]*: variables.upper' err || fail "message: $(cat err)"
+grep -q 'bad.yaml:[0-9]*: variables.[0-9].upper' err || fail "message: $(cat err)"
 sed 's/search:/serach:/' run.yaml >bad.yaml
 expect 1 "$tool" run bad.yaml --store bad.db
 grep -q "serach" err || fail "message: $(cat err)"
+
+# All of them at once; names that stand for something else are none for variables.
+cat >bad.yaml <<'YAML'
+variables:
+  - {name: id, lower: 0, upper: 1}
+  - {name: depth, lower: 2, upper: 1}
+objective: {command: "echo {depth}", timeout: soon}
+search: {initial: -4}
+YAML
+expect 1 "$tool" run bad.yaml
+for sentence in "bad.yaml:2: variables.1.name is 'id'" "bad.yaml:3: variables.2.upper is 1" \
+    "bad.yaml:4: objective.timeout is 'soon'" "bad.yaml:5: search.initial is '-4'"; do
+    grep -q "$sentence" err || fail "no sentence '$sentence': $(cat err)"
+done
+[ ! -e bad.db ] || fail "a store was made of a file with mistakes"
+
+# A store is relative to its file.
+mkdir -p elsewhere && sed 's/name: beam/name: beam2/; s/{beam}/{beam2}/' study.yaml >elsewhere/study.yaml
+expect 0 "$tool" run elsewhere/study.yaml
+[ -s elsewhere/study.db ] || fail "the store is not beside its file"
 
 # By hand: ask and tell from processes of their own.
 expect 0 "$tool" ask hand.db --lower -1,0 --upper 1,2 --initial 4 --budget 7 -n 3

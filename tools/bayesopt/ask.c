@@ -1,72 +1,71 @@
 /* ask: the next points of a store, or the first of a new one. */
-#include "cli.h"
 #include "commands.h"
 #include "config.h"
-#include "names.h"
 
-#include <getopt.h>
-#include <jansson.h>
-#include <stdio.h>
 #include <stdlib.h>
 
-static const char help[] =
-    "usage: bayesopt ask STORE [OPTION]...\n"
-    "\n"
-    "Prints the next points to evaluate as CSV (id, with two levels the level, and variables). "
-    "They wait for 'bayesopt tell',\n"
-    "which may come from any process, in any order.\n"
-    "\n"
-    "  -n, --points N    so many points (default 1)\n"
-    "  --reissue         first those asked before and never told\n"
-    "  --config FILE     create the store from this file's variables, constraints and search\n"
-    "  --lower LIST, --upper LIST\n"
-    "                    create the store for this box, a,b,c\n"
-    "  --seed S --initial N --budget N\n"
-    "                    with --lower and --upper: seed, initial design, evaluations in all\n"
-    "  --json            one JSON object\n"
-    "  --threads N       accepted; asking uses one thread\n"
-    "  --help\n"
-    "\n"
-    "Exit status: 0 success; 1 failure, or nothing left to evaluate; 2 wrong usage.\n";
-
 struct arguments {
-    size_t n, seed, initial, budget;
+    char *store, *config;
+    size_t n, n_lower, n_upper, initial, budget;
+    uint64_t seed;
+    double *lower, *upper;
     bool reissue, json;
-    const char *config, *lower, *upper;
 };
 
-static bool create_from_box(const char *store, const struct arguments *a)
+static const struct setting ROWS[] = {
+    OPTION("STORE", TEXT, store, .required = true, .sentence = "the file that holds the study"),
+    OPTION("points", COUNT, n, .letter = 'n', .least = 1, .most = 10000, .otherwise = "1",
+           .sentence = "how many"),
+    OPTION("reissue", SWITCH, reissue, .sentence = "first those asked before and never told"),
+    OPTION("config", FILE, config,
+           .sentence = "create the store from this file's variables, constraints and search"),
+    OPTION("lower", NUMBERS, lower, .count = offsetof(struct arguments, n_lower),
+           .sentence = "create the store for a box, with --upper"),
+    OPTION("upper", NUMBERS, upper, .count = offsetof(struct arguments, n_upper),
+           .sentence = "the other end of the box"),
+    OPTION("seed", SEED, seed, .otherwise = "1", .sentence = "of the new store"),
+    OPTION("initial", COUNT, initial, .sentence = "design of the new store; 0: by rule"),
+    OPTION("budget", COUNT, budget, .sentence = "evaluations in all of the new store; 0: by rule"),
+    OPTION("json", SWITCH, json, .sentence = "one JSON object"),
+};
+
+static void check(struct settings_source *source, void *target)
 {
-    double *lower = NULL, *upper = NULL;
-    size_t d, e;
+    const struct arguments *a = target;
+    if (a->n_lower != a->n_upper)
+        settings_complain(source, "upper", "has %zu numbers and --lower %zu, expected as many",
+                          a->n_upper, a->n_lower);
+}
+
+static const struct settings TABLE = {
+    sizeof ROWS / sizeof *ROWS, ROWS, .check = check,
+    .usage = "usage: bayesopt ask STORE [OPTION]...\n"
+             "\n"
+             "Prints the next points to evaluate as CSV (id, with two levels the level, and\n"
+             "variables). They wait for 'bayesopt tell', which may come from any process, in any\n"
+             "order. When nothing is left to evaluate the exit status is 1.\n\n"};
+
+static bool create_from_box(const struct arguments *a)
+{
     bayesopt_options options;
     bayesopt *bo = NULL;
     bayesopt_options_init(&options);
     options.seed = a->seed;
     options.initial_n = a->initial;
     options.max_evaluations = a->budget;
-    bool ok = cli_parse_list(a->lower, &lower, &d) && cli_parse_list(a->upper, &upper, &e);
-    if (!ok || d != e) {
-        cli_fail("--lower '%s' and --upper '%s': expected as many numbers in both", a->lower,
-                 a->upper);
-        ok = false;
-    } else if (bayesopt_create(d, lower, upper, &options, &bo) || bayesopt_open_store(bo, store)) {
-        cli_fail("%s", bayesopt_last_error());
-        ok = false;
-    }
+    bool ok = (!bayesopt_create(a->n_lower, a->lower, a->upper, &options, &bo) &&
+               !bayesopt_open_store(bo, a->store)) ||
+              cli_refuse("%s", bayesopt_last_error());
     bayesopt_free(bo);
-    free(lower);
-    free(upper);
     return ok;
 }
 
-static bool create_from_config(const char *store, const char *path)
+static bool create_from_config(const struct arguments *a)
 {
     struct config config;
     bayesopt *bo = NULL;
-    if (!config_read(path, &config))
-        return false;
-    bool ok = config_create(&config, store, &bo);
+    config_start(&config);
+    bool ok = config_read(a->config, &config) && config_create(&config, a->store, &bo);
     bayesopt_free(bo);
     config_free(&config);
     return ok;
@@ -90,112 +89,57 @@ static void print_csv(const struct names *names, size_t n, const double *x, cons
     }
 }
 
-static void print_json(const struct names *names, size_t n, const double *x, const uint64_t *ids,
-                       const int *levels)
+static void print_points_json(const struct names *names, size_t n, const double *x,
+                              const uint64_t *ids, const int *levels)
 {
     json_t *points = json_array();
     for (size_t i = 0; i < n && ids[i]; i++) {
-        json_t *values = json_object();
-        for (size_t j = 0; j < names->d; j++)
-            json_object_set_new(values, names->variables[j], json_real(x[i * names->d + j]));
-        json_t *point = json_pack("{s:I, s:o}", "id", (json_int_t)ids[i], "x", values);
+        json_t *point = json_pack("{s:I, s:o}", "id", (json_int_t)ids[i], "x",
+                                  named_json(names->d, names->variables, x + i * names->d));
         if (levels)
             json_object_set_new(point, "level", json_integer(levels[i]));
         json_array_append_new(points, point);
     }
-    json_t *root = json_pack("{s:o}", "points", points);
-    json_dumpf(root, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
-    putchar('\n');
-    json_decref(root);
+    print_json(stdout, json_pack("{s:o}", "points", points));
 }
 
-static int ask(const char *store, const struct arguments *a)
+static bool ask(const struct arguments *a)
 {
     bayesopt *bo;
     struct names names;
-    if (!store_open_to_write(store, &bo, &names))
-        return CLI_FAILED;
+    if (!store_open_to_write(a->store, &bo, &names))
+        return false;
     double *x = malloc(a->n * names.d * sizeof *x);
     uint64_t *ids = calloc(a->n, sizeof *ids);
     int *levels = calloc(a->n, sizeof *levels);
-    int code = CLI_OK;
+    bool ok = (x && ids && levels) || cli_refuse("out of memory");
     bayesopt_status status = a->reissue ? bayesopt_reclaim(bo) : BAYESOPT_OK;
-    if (!x || !ids || !levels)
-        code = cli_fail("out of memory");
-    else if (!status)
+    if (ok && !status)
         status = bayesopt_ask_levels(bo, a->n, x, ids, levels);
-    if (!code && status < 0)
-        code = cli_fail("%s", bayesopt_last_error());
-    else if (!code && status > 0)
-        code = cli_fail("%s: %s", store, bayesopt_status_string(status));
-    if (!code && bayesopt_detach(bo))
-        code = cli_fail("%s", bayesopt_last_error());
-    if (!code)
-        (a->json ? print_json : print_csv)(&names, a->n, x, ids,
-                                           bayesopt_level_count(bo) > 1 ? levels : NULL);
+    if (ok && status > 0)
+        ok = cli_refuse("%s: %s", a->store, bayesopt_status_string(status));
+    else if (ok && (status || bayesopt_detach(bo)))
+        ok = cli_refuse("%s", bayesopt_last_error());
+    if (ok)
+        (a->json ? print_points_json : print_csv)(&names, a->n, x, ids,
+                                                  bayesopt_level_count(bo) > 1 ? levels : NULL);
     free(x);
     free(ids);
     free(levels);
     names_free(&names);
     bayesopt_free(bo);
-    return code;
-}
-
-enum { CONFIG = 1000, LOWER, UPPER, SEED, INITIAL, BUDGET, REISSUE, JSON, THREADS, HELP };
-
-static int parse(int argc, char **argv, struct arguments *a)
-{
-    static const struct option options[] = {
-        {"points", required_argument, NULL, 'n'},    {"config", required_argument, NULL, CONFIG},
-        {"lower", required_argument, NULL, LOWER},   {"upper", required_argument, NULL, UPPER},
-        {"seed", required_argument, NULL, SEED},     {"initial", required_argument, NULL, INITIAL},
-        {"budget", required_argument, NULL, BUDGET}, {"reissue", no_argument, NULL, REISSUE},
-        {"json", no_argument, NULL, JSON},           {"threads", required_argument, NULL, THREADS},
-        {"help", no_argument, NULL, HELP},           {NULL, 0, NULL, 0},
-    };
-    int option;
-    size_t threads;
-    while ((option = getopt_long(argc, argv, "n:", options, NULL)) != -1) {
-        size_t *number = option == 'n'       ? &a->n
-                         : option == SEED    ? &a->seed
-                         : option == INITIAL ? &a->initial
-                         : option == BUDGET  ? &a->budget
-                         : option == THREADS ? &threads
-                                             : NULL;
-        if (number && !cli_parse_size(optarg, number))
-            return cli_usage("'%s' is not a whole number", optarg);
-        if (option == CONFIG)
-            a->config = optarg;
-        else if (option == LOWER)
-            a->lower = optarg;
-        else if (option == UPPER)
-            a->upper = optarg;
-        else if (option == REISSUE)
-            a->reissue = true;
-        else if (option == JSON)
-            a->json = true;
-        else if (option == HELP)
-            return -1;
-        else if (!number)
-            return cli_usage("unknown option or missing value");
-    }
-    if (a->n < 1 || a->n > 10000)
-        return cli_usage("--points %zu, expected 1 to 10000", a->n);
-    if ((a->lower != NULL) != (a->upper != NULL))
-        return cli_usage("--lower and --upper go together");
-    return argc - optind == 1 ? CLI_OK : cli_usage("expected one STORE");
+    return ok;
 }
 
 int command_ask(int argc, char **argv)
 {
-    struct arguments a = {.n = 1, .seed = 1};
-    int code = parse(argc, argv, &a);
-    if (code)
-        return code < 0 ? cli_print(help) : code;
-    const char *store = argv[optind];
-    if (a.config && !create_from_config(store, a.config))
-        return CLI_FAILED;
-    if (a.lower && !create_from_box(store, &a))
-        return CLI_FAILED;
-    return ask(store, &a);
+    struct arguments a = {0};
+    settings_start(&TABLE, &a);
+    int code = settings_options(argc, argv, &TABLE, &a, NULL, NULL);
+    if (code < 0)
+        code = (!a.config || create_from_config(&a)) && (!a.lower || create_from_box(&a)) && ask(&a)
+                   ? CLI_OK
+                   : CLI_FAILED;
+    settings_free(&TABLE, &a);
+    return code;
 }

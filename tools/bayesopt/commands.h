@@ -2,6 +2,15 @@
 #ifndef BAYESOPT_TOOL_COMMANDS_H
 #define BAYESOPT_TOOL_COMMANDS_H
 
+#include "settings.h"
+
+/* A row of the options of a command, whose target is its struct arguments. */
+#define OPTION(name, kind, member, ...)                                                            \
+    {                                                                                              \
+        .option = (name), .type = SETTING_##kind, .offset = offsetof(struct arguments, member),    \
+        __VA_ARGS__                                                                                \
+    }
+
 int command_run(int argc, char **argv);
 int command_ask(int argc, char **argv);
 int command_tell(int argc, char **argv);

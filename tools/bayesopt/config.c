@@ -1,334 +1,280 @@
 #include "config.h"
 
 #include "cli.h"
-#include "yaml_file.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define REQUIRED(name, part)                                                                       \
-    CYAML_FIELD_STRING_PTR(#name, CYAML_FLAG_POINTER, struct part, name, 1, CYAML_UNLIMITED)
-#define OPTIONAL(name, part)                                                                       \
-    CYAML_FIELD_STRING_PTR(#name, CYAML_FLAG_POINTER_NULL_STR | CYAML_FLAG_OPTIONAL, struct part,  \
-                           name, 1, CYAML_UNLIMITED)
-
-static const cyaml_schema_field_t variable_fields[] = {
-    REQUIRED(name, config_variable),
-    REQUIRED(lower, config_variable),
-    REQUIRED(upper, config_variable),
-    OPTIONAL(group, config_variable),
-    CYAML_FIELD_END,
-};
-static const cyaml_schema_value_t variable = {
-    CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct config_variable, variable_fields),
-};
-static const cyaml_schema_field_t objective_fields[] = {
-    REQUIRED(command, config_objective),
-    OPTIONAL(key, config_objective),
-    OPTIONAL(gradient, config_objective),
-    OPTIONAL(folder, config_objective),
-    OPTIONAL(timeout, config_objective),
-    OPTIONAL(retries, config_objective),
-    CYAML_FIELD_END,
-};
-static const cyaml_schema_field_t levels_fields[] = {
-    OPTIONAL(cheap, config_levels),
-    OPTIONAL(cost, config_levels),
-    CYAML_FIELD_END,
-};
-static const cyaml_schema_field_t constraint_fields[] = {
-    REQUIRED(name, config_constraint),
-    OPTIONAL(lower, config_constraint),
-    OPTIONAL(upper, config_constraint),
-    CYAML_FIELD_END,
-};
-static const cyaml_schema_value_t constraint = {
-    CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct config_constraint, constraint_fields),
-};
-static const cyaml_schema_field_t search_fields[] = {
-    OPTIONAL(evaluations, config_search),
-    OPTIONAL(initial, config_search),
-    OPTIONAL(design, config_search),
-    OPTIONAL(seed, config_search),
-    OPTIONAL(strategy, config_search),
-    OPTIONAL(noise, config_search),
-    OPTIONAL(workers, config_search),
-    OPTIONAL(kernel, config_search),
-    OPTIONAL(scales, config_search),
-    OPTIONAL(mean, config_search),
-    OPTIONAL(choice, config_search),
-    OPTIONAL(transform, config_search),
-    OPTIONAL(acquisition, config_search),
-    OPTIONAL(lcb_factor, config_search),
-    OPTIONAL(stop_no_improvement, config_search),
-    OPTIONAL(stop_expected_improvement, config_search),
-    CYAML_FIELD_END,
-};
-static const cyaml_schema_field_t fields[] = {
-    OPTIONAL(store, config_file),
-    CYAML_FIELD_SEQUENCE("variables", CYAML_FLAG_POINTER, struct config_file, variables, &variable,
-                         1, 1000),
-    CYAML_FIELD_MAPPING("objective", CYAML_FLAG_DEFAULT, struct config_file, objective,
-                        objective_fields),
-    CYAML_FIELD_MAPPING("levels", CYAML_FLAG_OPTIONAL, struct config_file, levels, levels_fields),
-    CYAML_FIELD_SEQUENCE("constraints", CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL,
-                         struct config_file, constraints, &constraint, 0, 1000),
-    CYAML_FIELD_MAPPING("search", CYAML_FLAG_OPTIONAL, struct config_file, search, search_fields),
-    CYAML_FIELD_END,
-};
-static const cyaml_schema_value_t schema = {
-    CYAML_VALUE_MAPPING(CYAML_FLAG_POINTER, struct config_file, fields),
-};
-
-static bool number(const char *path, const char *field, const char *text, double otherwise,
-                   double *out)
-{
-    *out = otherwise;
-    if (!text || cli_parse_double(text, out))
-        return true;
-    cli_yaml_fail(path, field, "is '%s', expected a finite number", text);
-    return false;
-}
-
-static bool whole(const char *path, const char *field, const char *text, size_t otherwise,
-                  size_t *out)
-{
-    *out = otherwise;
-    if (!text || cli_parse_size(text, out))
-        return true;
-    cli_yaml_fail(path, field, "is '%s', expected a whole number", text);
-    return false;
-}
-
-static bool check_variables(struct config *c)
-{
-    const struct config_file *f = c->file;
-    for (unsigned j = 0; j < f->variables_count; j++) {
-        const struct config_variable *v = &f->variables[j];
-        if (!number(c->path, "variables.lower", v->lower, 0, &c->lower[j]) ||
-            !number(c->path, "variables.upper", v->upper, 1, &c->upper[j]))
-            return false;
-        if (!(c->lower[j] < c->upper[j])) {
-            cli_yaml_fail(c->path, "variables", "'%s' has bounds %g and %g, expected increasing",
-                          v->name, c->lower[j], c->upper[j]);
-            return false;
-        }
-        for (unsigned k = 0; k < j; k++)
-            if (strcmp(f->variables[k].name, v->name) == 0) {
-                cli_yaml_fail(c->path, "variables", "has two called '%s'", v->name);
-                return false;
-            }
-        c->names.variables[j] = strdup(v->name);
+#define ROW(part, name, kind, member, ...)                                                         \
+    {                                                                                              \
+        .key = (name), .type = SETTING_##kind, .offset = offsetof(struct part, member),            \
+        __VA_ARGS__                                                                                \
     }
-    return true;
+#define COUNT(array) (sizeof(array) / sizeof *(array))
+
+static const struct setting_word DESIGNS[] = {{"uniform", BAYESOPT_DESIGN_UNIFORM},
+                                              {"lhs", BAYESOPT_DESIGN_LHS},
+                                              {"annealed-lhs", BAYESOPT_DESIGN_ANNEALED_LHS},
+                                              {"sobol", BAYESOPT_DESIGN_SOBOL},
+                                              {"stlbo", BAYESOPT_DESIGN_STLBO},
+                                              {NULL, 0}};
+static const struct setting_word STRATEGIES[] = {{"auto", BAYESOPT_STRATEGY_AUTO},
+                                                 {"global", BAYESOPT_STRATEGY_GLOBAL},
+                                                 {"local", BAYESOPT_STRATEGY_LOCAL},
+                                                 {NULL, 0}};
+/* A command cannot tell the variance of what it prints, so the known noise is missing. */
+static const struct setting_word NOISES[] = {{"deterministic", BAYESOPT_NOISE_DETERMINISTIC},
+                                             {"learned", BAYESOPT_NOISE_LEARNED},
+                                             {NULL, 0}};
+static const struct setting_word KERNELS[] = {{"se", BAYESOPT_KERNEL_SE},
+                                              {"matern32", BAYESOPT_KERNEL_MATERN32},
+                                              {"matern52", BAYESOPT_KERNEL_MATERN52},
+                                              {NULL, 0}};
+static const struct setting_word SCALES[] = {{"isotropic", BAYESOPT_SCALES_ISOTROPIC},
+                                             {"tied", BAYESOPT_SCALES_TIED},
+                                             {"ard", BAYESOPT_SCALES_ARD},
+                                             {"auto", BAYESOPT_SCALES_AUTO},
+                                             {NULL, 0}};
+static const struct setting_word MEANS[] = {
+    {"constant", BAYESOPT_MEAN_CONSTANT}, {"linear", BAYESOPT_MEAN_LINEAR}, {NULL, 0}};
+static const struct setting_word CHOICES[] = {
+    {"posterior", BAYESOPT_CHOICE_POSTERIOR}, {"loo", BAYESOPT_CHOICE_LOO}, {NULL, 0}};
+static const struct setting_word TRANSFORMS[] = {{"none", BAYESOPT_TRANSFORM_NONE},
+                                                 {"log", BAYESOPT_TRANSFORM_LOG},
+                                                 {"yeo-johnson", BAYESOPT_TRANSFORM_YEO_JOHNSON},
+                                                 {"rank", BAYESOPT_TRANSFORM_RANK},
+                                                 {"winsorised", BAYESOPT_TRANSFORM_WINSORISED},
+                                                 {"auto", BAYESOPT_TRANSFORM_AUTO},
+                                                 {NULL, 0}};
+static const struct setting_word ACQUISITIONS[] = {
+    {"ei", BAYESOPT_ACQUISITION_EI}, {"lcb", BAYESOPT_ACQUISITION_LCB}, {NULL, 0}};
+static const struct setting_word BY_RULE[] = {{"by rule", 0}, {NULL, 0}};
+static const struct setting_word NEVER[] = {{"never", 0}, {NULL, 0}};
+static const struct setting_word NO_LOWER[] = {{"none", -INFINITY}, {NULL, 0}};
+static const struct setting_word NO_UPPER[] = {{"none", INFINITY}, {NULL, 0}};
+
+static const struct setting VARIABLE_ROWS[] = {
+    ROW(config_variable, "name", TEXT, name, .required = true, .sentence = "of the variable"),
+    ROW(config_variable, "lower", NUMBER, lower, .required = true, .sentence = "lower bound"),
+    ROW(config_variable, "upper", NUMBER, upper, .required = true, .sentence = "upper bound"),
+    ROW(config_variable, "group", COUNT, group, .given = offsetof(struct config_variable, grouped),
+        .sentence = "of variables with one length scale, from 0 on"),
+};
+
+static void check_variable(struct settings_source *source, void *target)
+{
+    const struct config_variable *v = target;
+    if (!(v->lower < v->upper))
+        settings_complain(source, "upper", "is %g, expected more than the lower bound %g", v->upper,
+                          v->lower);
+    if (strcmp(v->name, "id") == 0 || strcmp(v->name, "level") == 0)
+        settings_complain(
+            source, "name",
+            "is '%s', which stands for the evaluation's own %s in a command; expected "
+            "another name",
+            v->name, v->name);
 }
 
-static bool check_constraints(struct config *c)
+static const struct settings VARIABLE = {COUNT(VARIABLE_ROWS), VARIABLE_ROWS,
+                                         .check = check_variable};
+
+static const struct setting CONSTRAINT_ROWS[] = {
+    ROW(config_constraint, "name", TEXT, name, .required = true, .sentence = "in the output"),
+    ROW(config_constraint, "lower", NUMBER, lower, .words = NO_LOWER, .otherwise = "none",
+        .sentence = "least allowed"),
+    ROW(config_constraint, "upper", NUMBER, upper, .words = NO_UPPER, .otherwise = "none",
+        .sentence = "most allowed"),
+};
+
+static void check_constraint(struct settings_source *source, void *target)
 {
-    const struct config_file *f = c->file;
-    for (unsigned k = 0; k < f->constraints_count; k++) {
-        const struct config_constraint *v = &f->constraints[k];
-        if (!number(c->path, "constraints.lower", v->lower, -INFINITY, &c->constraint_lower[k]) ||
-            !number(c->path, "constraints.upper", v->upper, INFINITY, &c->constraint_upper[k]))
-            return false;
-        if (!v->lower && !v->upper) {
-            cli_yaml_fail(c->path, "constraints", "'%s' has neither lower nor upper", v->name);
-            return false;
-        }
-        c->names.constraints[k] = strdup(v->name);
+    const struct config_constraint *c = target;
+    if (isinf(c->lower) && isinf(c->upper))
+        settings_complain(source, "name", "is '%s', which has neither lower nor upper", c->name);
+    else if (!(c->lower < c->upper))
+        settings_complain(source, "upper", "is %g, expected more than lower, %g", c->upper,
+                          c->lower);
+}
+
+static const struct settings CONSTRAINT = {COUNT(CONSTRAINT_ROWS), CONSTRAINT_ROWS,
+                                           .check = check_constraint};
+
+static const struct setting ROWS[] = {
+    {.option = "CONFIG.yaml",
+     .type = SETTING_TEXT,
+     .offset = offsetof(struct config, path),
+     .required = true,
+     .sentence = "the file that describes the study"},
+    {.option = "store",
+     .type = SETTING_TEXT,
+     .offset = offsetof(struct config, store_given),
+     .sentence = "store to use instead of the file's"},
+    {.option = "json",
+     .type = SETTING_SWITCH,
+     .offset = offsetof(struct config, json),
+     .sentence = "one JSON object with the result"},
+    ROW(config, "store", TEXT, store,
+        .sentence = "SQLite file, relative to this one; by default "
+                    "this one's name with .db"),
+    ROW(config, "variables", ROWS, variables, .required = true, .n_least = 1, .n_most = 1000,
+        .count = offsetof(struct config, n_variables), .table = &VARIABLE,
+        .size = sizeof(struct config_variable), .sentence = "list of {name, lower, upper, group}"),
+    ROW(config, "objective.command", TEXT, command, .required = true,
+        .sentence =
+            "what to run, by /bin/sh in a folder of its own; {name} of a variable, {id} and "
+            "{level} are replaced, {{ is a brace"),
+    ROW(config, "objective.key", TEXT, key,
+        .sentence = "the number after it in the output counts; without, the last that ends a line"),
+    ROW(config, "objective.gradient", TEXT, gradient,
+        .sentence = "the derivatives are the numbers after it"),
+    ROW(config, "objective.folder", TEXT, folder, .otherwise = "evaluations",
+        .sentence = "parent of the working folders"),
+    ROW(config, "objective.timeout", NUMBER, timeout, .most = INFINITY, .open_least = true,
+        .words = NO_UPPER, .otherwise = "none", .sentence = "seconds, after which it has failed"),
+    ROW(config, "objective.retries", COUNT, retries, .otherwise = "0",
+        .sentence = "attempts after a failed one"),
+    ROW(config, "constraints", ROWS, constraints, .n_most = 1000,
+        .count = offsetof(struct config, n_constraints), .table = &CONSTRAINT,
+        .size = sizeof(struct config_constraint),
+        .sentence = "list of {name, lower, upper} on numbers after a name in the output"),
+    ROW(config, "levels.cheap", TEXT, cheap,
+        .sentence = "command of a cheaper, coarser evaluation"),
+    ROW(config, "levels.cost", NUMBER, options.level_cost_ratio, .most = 1, .open_least = true,
+        .sentence = "of the cheap one over the other's"),
+    ROW(config, "search.evaluations", COUNT, options.max_evaluations, .words = BY_RULE,
+        .sentence = "in all"),
+    ROW(config, "search.initial", COUNT, options.initial_n, .words = BY_RULE,
+        .sentence = "of them in the initial design"),
+    ROW(config, "search.design", CHOICE, options.initial_kind, .words = DESIGNS,
+        .sentence = "kind of the initial design"),
+    ROW(config, "search.seed", SEED, options.seed, .sentence = "of all random streams"),
+    ROW(config, "search.strategy", CHOICE, options.strategy, .words = STRATEGIES,
+        .sentence = "which steps follow the initial design"),
+    ROW(config, "search.noise", CHOICE, options.noise, .words = NOISES,
+        .sentence = "whether the same point gives the same value"),
+    ROW(config, "search.workers", COUNT, workers, .option = "workers", .least = 1, .most = 1000,
+        .otherwise = "1", .sentence = "evaluations at a time"),
+    ROW(config, "search.kernel", CHOICE, options.kernel, .words = KERNELS,
+        .sentence = "of the regression"),
+    ROW(config, "search.scales", CHOICE, options.scales, .words = SCALES,
+        .sentence = "which length scales are free; tied when the variables have groups"),
+    ROW(config, "search.mean", CHOICE, options.mean, .words = MEANS,
+        .sentence = "of the regression"),
+    ROW(config, "search.choice", CHOICE, options.choice, .words = CHOICES,
+        .sentence = "between models"),
+    ROW(config, "search.transform", CHOICE, options.transform, .words = TRANSFORMS,
+        .sentence = "of the values"),
+    ROW(config, "search.acquisition", CHOICE, options.acquisition, .words = ACQUISITIONS,
+        .sentence = "what a proposal maximises"),
+    ROW(config, "search.lcb_factor", NUMBER, options.lcb_factor, .most = INFINITY,
+        .open_least = true, .sentence = "standard deviations below the mean, with lcb"),
+    ROW(config, "search.stop_no_improvement", COUNT, options.stop_no_improvement, .words = NEVER,
+        .sentence = "stop after so many proposals without one"),
+    ROW(config, "search.stop_expected_improvement", NUMBER, options.stop_expected_improvement,
+        .most = INFINITY, .words = NEVER, .sentence = "stop when less is expected, in units of f"),
+};
+
+static void check(struct settings_source *source, void *target)
+{
+    const struct config *c = target;
+    size_t grouped = 0;
+    for (size_t j = 0; j < c->n_variables; j++) {
+        grouped += c->variables[j].grouped;
+        for (size_t k = 0; k < j; k++)
+            if (strcmp(c->variables[j].name, c->variables[k].name) == 0)
+                settings_complain(source, "variables", "has two called '%s'", c->variables[j].name);
     }
-    return true;
+    if (grouped && grouped < c->n_variables)
+        settings_complain(source, "variables", "has a group for %zu of %zu, expected all", grouped,
+                          c->n_variables);
+    if (!grouped && c->n_variables && c->options.scales == BAYESOPT_SCALES_TIED)
+        settings_complain(source, "search.scales", "is 'tied', but the variables have no group");
 }
 
-/* One of a list of names that the library gives for 0, 1, ...; NULL text keeps the default. */
-static bool choice(const char *path, const char *field, const char *text, const char *const *list,
-                   int n, int *out)
-{
-    if (!text)
-        return true;
-    for (int i = 0; i < n; i++)
-        if (strcmp(text, list[i]) == 0) {
-            *out = i;
-            return true;
-        }
-    char names[200] = "";
-    for (int i = 0; i < n; i++)
-        snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", i ? ", " : "",
-                 list[i]);
-    cli_yaml_fail(path, field, "is '%s', expected one of %s", text, names);
-    return false;
-}
+const struct settings CONFIG = {COUNT(ROWS), ROWS, .check = check};
 
-/* The model, the acquisition and when to stop. */
-static bool check_model(struct config *c)
+void config_start(struct config *c)
 {
-    static const char *const kernels[] = {"se", "matern32", "matern52"};
-    static const char *const scales[] = {"isotropic", "tied", "ard", "auto"};
-    static const char *const means[] = {"constant", "linear"};
-    static const char *const choices[] = {"posterior", "loo"};
-    static const char *const transforms[] = {"none", "log",        "yeo-johnson",
-                                             "rank", "winsorised", "auto"};
-    static const char *const acquisitions[] = {"ei", "lcb"};
-    const struct config_search *s = &c->file->search;
-    bayesopt_options *o = &c->options;
-    int kernel = (int)o->kernel, scale = c->group ? BAYESOPT_SCALES_TIED : (int)o->scales;
-    int mean = 0, model = (int)o->choice, transform = (int)o->transform, what = (int)o->acquisition;
-    bool ok = choice(c->path, "search.kernel", s->kernel, kernels, 3, &kernel) &&
-              choice(c->path, "search.scales", s->scales, scales, 4, &scale) &&
-              choice(c->path, "search.mean", s->mean, means, 2, &mean) &&
-              choice(c->path, "search.choice", s->choice, choices, 2, &model) &&
-              choice(c->path, "search.transform", s->transform, transforms, 6, &transform) &&
-              choice(c->path, "search.acquisition", s->acquisition, acquisitions, 2, &what) &&
-              number(c->path, "search.lcb_factor", s->lcb_factor, o->lcb_factor, &o->lcb_factor) &&
-              whole(c->path, "search.stop_no_improvement", s->stop_no_improvement, 0,
-                    &o->stop_no_improvement) &&
-              number(c->path, "search.stop_expected_improvement", s->stop_expected_improvement, 0,
-                     &o->stop_expected_improvement);
-    if (ok && scale == BAYESOPT_SCALES_TIED && !c->group) {
-        cli_yaml_fail(c->path, "search.scales", "is 'tied', but the variables have no group");
-        return false;
-    }
-    o->kernel = (bayesopt_kernel)kernel;
-    o->scales = (bayesopt_scales)scale;
-    o->mean = mean ? BAYESOPT_MEAN_LINEAR : BAYESOPT_MEAN_CONSTANT;
-    o->choice = (bayesopt_choice)model;
-    o->transform = (bayesopt_transform)transform;
-    o->acquisition = (bayesopt_acquisition)what;
-    o->group = c->group;
-    return ok;
-}
-
-static bool check_levels(struct config *c)
-{
-    const struct config_levels *l = &c->file->levels;
-    if (!l->cheap && !l->cost)
-        return true;
-    if (!l->cheap) {
-        cli_yaml_fail(c->path, "levels", "has no command 'cheap'");
-        return false;
-    }
-    c->options.n_levels = 2;
-    double *ratio = &c->options.level_cost_ratio;
-    if (!number(c->path, "levels.cost", l->cost, *ratio, ratio))
-        return false;
-    if (*ratio > 0 && *ratio <= 1)
-        return true;
-    cli_yaml_fail(c->path, "levels.cost", "is %g, expected a share in (0, 1]", *ratio);
-    return false;
-}
-
-static bool check_groups(struct config *c)
-{
-    const struct config_file *f = c->file;
-    size_t given = 0;
-    for (unsigned j = 0; j < f->variables_count; j++)
-        given += f->variables[j].group != NULL;
-    if (!given)
-        return true;
-    c->group = malloc(f->variables_count * sizeof *c->group);
-    if (!c->group || given != f->variables_count) {
-        cli_yaml_fail(c->path, "variables", "has a group for %zu of %u variables, expected all",
-                      given, f->variables_count);
-        return false;
-    }
-    for (unsigned j = 0; j < f->variables_count; j++)
-        if (!whole(c->path, "variables.group", f->variables[j].group, 0, &c->group[j]))
-            return false;
-    return true;
-}
-
-static bool check_search(struct config *c)
-{
-    static const char *const designs[] = {"uniform", "lhs", "annealed-lhs", "sobol", "stlbo"};
-    static const char *const strategies[] = {"auto", "global", "local"};
-    static const char *const noises[] = {"deterministic", "known", "learned"};
-    const struct config_search *s = &c->file->search;
-    const struct config_objective *o = &c->file->objective;
-    bayesopt_options *options = &c->options;
-    int design = (int)options->initial_kind, strategy = (int)options->strategy;
-    int noise = (int)options->noise;
-    size_t seed = 1;
-    bool ok = whole(c->path, "search.evaluations", s->evaluations, 0, &options->max_evaluations) &&
-              whole(c->path, "search.initial", s->initial, 0, &options->initial_n) &&
-              whole(c->path, "search.seed", s->seed, 1, &seed) &&
-              whole(c->path, "search.workers", s->workers, 1, &c->workers) &&
-              choice(c->path, "search.design", s->design, designs, 5, &design) &&
-              choice(c->path, "search.strategy", s->strategy, strategies, 3, &strategy) &&
-              choice(c->path, "search.noise", s->noise, noises, 3, &noise) &&
-              number(c->path, "objective.timeout", o->timeout, 0, &c->timeout) &&
-              whole(c->path, "objective.retries", o->retries, 0, &c->retries);
-    if (ok && noise == BAYESOPT_NOISE_KNOWN) {
-        cli_yaml_fail(c->path, "search.noise", "is 'known', which a command cannot tell");
-        ok = false;
-    }
-    if (ok && (c->workers < 1 || c->workers > 1000)) {
-        cli_yaml_fail(c->path, "search.workers", "is %zu, expected 1 to 1000", c->workers);
-        ok = false;
-    }
-    options->seed = seed;
-    options->initial_kind = (bayesopt_design_kind)design;
-    options->strategy = (bayesopt_strategy)strategy;
-    options->noise = (bayesopt_noise)noise;
-    return ok;
-}
-
-bool config_read(const char *path, struct config *c)
-{
-    *c = (struct config){.path = path};
+    *c = (struct config){0};
     bayesopt_options_init(&c->options);
-    if (!cli_yaml_load(path, &schema, (void **)&c->file))
-        return false;
-    size_t d = c->file->variables_count, m = c->file->constraints_count;
-    c->names = (struct names){.d = d,
-                              .m = m,
-                              .variables = calloc(d, sizeof(char *)),
-                              .constraints = calloc(m + 1, sizeof(char *))};
-    c->lower = malloc(2 * (d + m) * sizeof *c->lower);
-    bool ok = c->names.variables && c->names.constraints && c->lower;
-    if (ok) {
-        c->upper = c->lower + d;
-        c->constraint_lower = c->upper + d;
-        c->constraint_upper = c->constraint_lower + m;
-        ok = check_variables(c) && check_groups(c) && check_constraints(c) && check_search(c) &&
-             check_model(c) && check_levels(c);
-    } else {
-        cli_fail("out of memory");
-    }
-    c->options.n_constraints = m;
-    c->options.constraint_lower = c->constraint_lower;
-    c->options.constraint_upper = c->constraint_upper;
-    if (!ok)
-        config_free(c);
-    return ok;
+    settings_start(&CONFIG, c);
 }
 
 void config_free(struct config *c)
 {
-    names_free(&c->names);
-    free(c->lower);
+    settings_free(&CONFIG, c);
+    free(c->names.variables);
+    free(c->names.constraints);
+    free(c->bounds);
     free(c->group);
-    c->group = NULL;
-    cli_yaml_free(&schema, c->file);
-    c->file = NULL;
-    c->lower = NULL;
+}
+
+/* The library's options from what was read. */
+static bool complete(struct config *c)
+{
+    size_t d = c->n_variables, m = c->n_constraints;
+    c->names = (struct names){d, m, calloc(d, sizeof(char *)), calloc(m + 1, sizeof(char *))};
+    c->bounds = malloc(2 * (d + m) * sizeof *c->bounds);
+    c->group = malloc(d * sizeof *c->group);
+    if (!c->names.variables || !c->names.constraints || !c->bounds || !c->group)
+        return cli_refuse("out of memory");
+    for (size_t j = 0; j < d; j++) {
+        c->names.variables[j] = c->variables[j].name;
+        c->bounds[j] = c->variables[j].lower;
+        c->bounds[d + j] = c->variables[j].upper;
+        c->group[j] = c->variables[j].group;
+    }
+    for (size_t k = 0; k < m; k++) {
+        c->names.constraints[k] = c->constraints[k].name;
+        c->bounds[2 * d + k] = c->constraints[k].lower;
+        c->bounds[2 * d + m + k] = c->constraints[k].upper;
+    }
+    if (c->variables[0].grouped)
+        c->options.scales = BAYESOPT_SCALES_TIED;
+    c->options.group = c->group;
+    c->options.n_constraints = m;
+    c->options.constraint_lower = c->bounds + 2 * d;
+    c->options.constraint_upper = c->bounds + 2 * d + m;
+    c->options.n_levels = c->cheap ? 2 : 1;
+    return true;
+}
+
+bool config_read(const char *path, struct config *c)
+{
+    return settings_read(path, &CONFIG, c, NULL) && complete(c);
+}
+
+char *config_store(const struct config *c)
+{
+    if (c->store_given)
+        return strdup(c->store_given);
+    const char *slash = strrchr(c->path, '/'), *name = slash ? slash + 1 : c->path;
+    const char *dot = strrchr(name, '.'), *store = c->store ? c->store : ".db";
+    size_t kept = c->store ? (*store == '/' ? 0 : (size_t)(name - c->path))
+                  : dot    ? (size_t)(dot - c->path)
+                           : strlen(c->path);
+    char *made = malloc(kept + strlen(store) + 1);
+    if (made)
+        strcpy((char *)memcpy(made, c->path, kept) + kept, store);
+    return made;
 }
 
 /* What says what is evaluated, in addition to the names. */
 static bool keep_objective(const struct config *c, bayesopt *bo)
 {
-    const struct config_file *f = c->file;
-    const char *key = f->objective.key, *cheap = f->levels.cheap;
-    return names_keep(bo, &c->names) && store_keep(bo, "objective.command", f->objective.command) &&
-           store_keep(bo, "objective.key", key ? key : "") &&
-           store_keep(bo, "levels.cheap", cheap ? cheap : "");
+    return names_keep(bo, &c->names) && store_keep(bo, "objective.command", c->command) &&
+           store_keep(bo, "objective.key", c->key ? c->key : "") &&
+           store_keep(bo, "levels.cheap", c->cheap ? c->cheap : "");
 }
 
 bool config_create(const struct config *c, const char *store, bayesopt **bo)
 {
     *bo = NULL;
-    bool ok = (!bayesopt_create(c->names.d, c->lower, c->upper, &c->options, bo) &&
+    size_t d = c->n_variables;
+    bool ok = (!bayesopt_create(d, c->bounds, c->bounds + d, &c->options, bo) &&
                !bayesopt_open_store(*bo, store)) ||
               cli_refuse("%s", bayesopt_last_error());
     ok = ok && keep_objective(c, *bo);

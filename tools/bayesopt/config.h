@@ -1,58 +1,51 @@
-/* The YAML file of 'bayesopt run'. */
+/* The YAML file of 'bayesopt run', and what its command line adds. */
 #ifndef BAYESOPT_TOOL_CONFIG_H
 #define BAYESOPT_TOOL_CONFIG_H
 
 #include "names.h"
+#include "settings.h"
 
 #include <bayesopt/bayesopt.h>
 
 #include <stdbool.h>
 
-/* As the file has it: numbers are text until they are checked. */
 struct config_variable {
-    char *name, *lower, *upper, *group;
+    char *name;
+    double lower, upper;
+    size_t group;
+    bool grouped;
 };
-struct config_objective {
-    char *command, *key, *gradient, *folder, *timeout, *retries;
-};
-struct config_levels {
-    char *cheap, *cost;
-};
+
 struct config_constraint {
-    char *name, *lower, *upper;
-};
-struct config_search {
-    char *evaluations, *initial, *design, *seed, *strategy, *noise, *workers;
-    char *kernel, *scales, *mean, *choice, *transform, *acquisition, *lcb_factor;
-    char *stop_no_improvement, *stop_expected_improvement;
-};
-struct config_file {
-    char *store;
-    struct config_variable *variables;
-    unsigned variables_count;
-    struct config_objective objective;
-    struct config_levels levels;
-    struct config_constraint *constraints;
-    unsigned constraints_count;
-    struct config_search search;
+    char *name;
+    double lower, upper;
 };
 
-/* Checked. */
 struct config {
-    const char *path;
-    struct config_file *file;
-    struct names names;
-    double *lower, *upper;                       /* [d] */
-    double *constraint_lower, *constraint_upper; /* [m] */
-    double timeout;                              /* seconds */
+    char *path, *store, *store_given; /* the file; its store and that of the command line */
+    struct config_variable *variables;
+    size_t n_variables;
+    struct config_constraint *constraints;
+    size_t n_constraints;
+    char *command, *key, *gradient, *folder, *cheap;
+    double timeout; /* seconds, INFINITY: none */
     size_t retries, workers;
-    size_t *group; /* [d] tied length scales, or NULL */
+    bool json;
     bayesopt_options options;
+    struct names names; /* borrowed from variables and constraints */
+    double *bounds;     /* of variables, of constraints, each lower then upper */
+    size_t *group;
 };
 
-/* Prints the sentence with line and field on failure. The path is borrowed. */
+extern const struct settings CONFIG;
+
+/* config_start() first, config_free() in any case. Reading prints the sentences with line and field
+ * on failure, all at once. */
+void config_start(struct config *config);
 bool config_read(const char *path, struct config *config);
 void config_free(struct config *config);
+/* Where its store is; the caller frees. NULL: out of memory. */
+char *config_store(const struct config *config);
 /* The optimisation it describes, on the store; refuses a store of another study. */
 bool config_create(const struct config *config, const char *store, bayesopt **bo);
 

@@ -1,7 +1,6 @@
 #include "evaluate.h"
 
 #include "cli.h"
-#include "yaml_file.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -37,8 +36,7 @@ static char *fill_template(const struct config *c, const struct evaluation *e)
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
     bool ok = out != NULL, cheap = c->options.n_levels == 2 && e->level == 0;
-    for (const char *p = cheap ? c->file->levels.cheap : c->file->objective.command; ok && *p;
-         p++) {
+    for (const char *p = cheap ? c->cheap : c->command; ok && *p; p++) {
         const char *end = *p == '{' ? strchr(p, '}') : NULL;
         if (p[0] == '{' && p[1] == '{') {
             fputc('{', out);
@@ -46,8 +44,8 @@ static char *fill_template(const struct config *c, const struct evaluation *e)
         } else if (end) {
             ok = expand(c, e, p + 1, (size_t)(end - p - 1), out);
             if (!ok)
-                cli_yaml_fail(c->path, cheap ? "levels.cheap" : "objective.command",
-                              "has '%.*s}', which is no variable", (int)(end - p), p);
+                cli_fail("%s: %s has '%.*s}', which is no variable", c->path,
+                         cheap ? "levels.cheap" : "objective.command", (int)(end - p), p);
             p = end;
         } else {
             fputc(*p, out);
@@ -79,7 +77,7 @@ static void become(const struct evaluation *e, const char *command)
 
 bool evaluation_start(const struct config *c, struct evaluation *e)
 {
-    const char *parent = c->file->objective.folder ? c->file->objective.folder : "evaluations";
+    const char *parent = c->folder;
     char *command = fill_template(c, e);
     if (!command)
         return false;
@@ -109,7 +107,7 @@ bool evaluation_start(const struct config *c, struct evaluation *e)
 
 void evaluation_check_time(const struct config *c, struct evaluation *e)
 {
-    if (c->timeout > 0 && !e->timed_out && cli_seconds() - e->started > c->timeout) {
+    if (!e->timed_out && cli_seconds() - e->started > c->timeout) {
         e->timed_out = true;
         kill(-e->process, SIGKILL);
     }
@@ -184,7 +182,7 @@ static char *read_output(const struct evaluation *e)
 bool evaluation_read(const struct config *c, const struct evaluation *e, int status, double *f,
                      double *constraints, double *gradient, char *reason, size_t size)
 {
-    const char *key = c->file->objective.key;
+    const char *key = c->key;
     if (e->timed_out)
         snprintf(reason, size, "took longer than %g s", c->timeout);
     else if (WIFSIGNALED(status))
@@ -204,7 +202,7 @@ bool evaluation_read(const struct config *c, const struct evaluation *e, int sta
         if (!ok)
             snprintf(reason, size, "no number after %s in the output", c->names.constraints[k]);
     }
-    const char *slope = c->file->objective.gradient;
+    const char *slope = c->gradient;
     if (ok && slope && !find_numbers(text, slope, c->names.d, gradient)) {
         snprintf(reason, size, "not %zu numbers after %s in the output", c->names.d, slope);
         ok = false;

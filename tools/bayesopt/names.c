@@ -1,7 +1,7 @@
 #include "names.h"
 
-#include "cli.h"
-
+#include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -98,4 +98,41 @@ bool store_open(const char *path, bayesopt **bo, struct names *names)
 bool store_open_to_write(const char *path, bayesopt **bo, struct names *names)
 {
     return open_with_names(bayesopt_open(path, NULL, NULL, bo), bo, names);
+}
+
+json_t *number_json(double value)
+{
+    return isfinite(value) ? json_real(value) : json_null();
+}
+
+json_t *named_json(size_t n, char *const *names, const double *values)
+{
+    json_t *object = json_object();
+    for (size_t i = 0; i < n && values; i++)
+        json_object_set_new(object, names[i], number_json(values[i]));
+    return object;
+}
+
+bool print_json(FILE *stream, json_t *root)
+{
+    json_dumpf(root, stream, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
+    fputc('\n', stream);
+    json_decref(root);
+    return true;
+}
+
+bool output_open(struct output *output, const char *path)
+{
+    *output = (struct output){stdout, path, {0}};
+    if (path && !cli_file_open(&output->file, path))
+        return cli_refuse("%s: %s", path, strerror(errno));
+    if (path)
+        output->stream = output->file.stream;
+    return true;
+}
+
+bool output_close(struct output *output)
+{
+    return !output->path || cli_file_commit(&output->file) ||
+           cli_refuse("%s: %s", output->path, strerror(errno));
 }

@@ -3,8 +3,11 @@
 #ifndef BAYESOPT_TOOL_NAMES_H
 #define BAYESOPT_TOOL_NAMES_H
 
+#include "cli.h"
+
 #include <bayesopt/bayesopt.h>
 
+#include <jansson.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -25,5 +28,20 @@ void names_free(struct names *names);
 /* Opens STORE for looking, or as it is to be added to; prints the sentence on failure. */
 bool store_open(const char *path, bayesopt **bo, struct names *names);
 bool store_open_to_write(const char *path, bayesopt **bo, struct names *names);
+
+/* {"angle": 5, ...}; what is not finite is null. NULL values give {}. */
+json_t *named_json(size_t n, char *const *names, const double *values);
+json_t *number_json(double value);
+/* Writes and releases; true, so that it may end a function. */
+bool print_json(FILE *stream, json_t *root);
+
+/* Standard output, or a file that appears whole when it is closed. PATH NULL: the former. */
+struct output {
+    FILE *stream;
+    const char *path;
+    struct cli_file file;
+};
+bool output_open(struct output *output, const char *path);
+bool output_close(struct output *output);
 
 #endif

@@ -1,186 +1,122 @@
 /* tell: results of evaluations, one from the arguments or many from a table. */
-#include "cli.h"
 #include "commands.h"
 #include "names.h"
 
-#include <getopt.h>
-#include <jansson.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
-
-static const char help[] =
-    "usage: bayesopt tell STORE ID VALUE [--constraints a,b,...]\n"
-    "       bayesopt tell STORE ID --failed REASON\n"
-    "       bayesopt tell STORE VALUE --point x1,x2,... [--constraints a,b,...]\n"
-    "       bayesopt tell STORE --table FILE.csv\n"
-    "\n"
-    "Records the result at an asked point, that its evaluation failed, an evaluation made "
-    "elsewhere,\n"
-    "or a table of results with the columns id and f and one per constraint ('-': standard "
-    "input).\n"
-    "VALUE is a number; nan and inf count as failures.\n"
-    "\n"
-    "  --json            one JSON object\n"
-    "  --threads N       accepted; telling uses one thread\n"
-    "  --help\n"
-    "\n"
-    "Exit status: 0 success, 1 failure, 2 wrong usage.\n";
 
 struct arguments {
-    const char *constraints, *failed, *point, *table;
+    char *store, *failed, *table;
+    double *constraints, *point;
+    size_t n_constraints, n_point, n_words;
     bool json;
-    int count;
-    char **words; /* after STORE */
+    char **words; /* after STORE: ID, VALUE */
 };
+
+static const struct setting ROWS[] = {
+    OPTION("STORE", TEXT, store, .required = true, .sentence = "the file that holds the study"),
+    OPTION("constraints", NUMBERS, constraints, .count = offsetof(struct arguments, n_constraints),
+           .sentence = "values of the outcome constraints"),
+    OPTION("failed", TEXT, failed, .sentence = "the evaluation failed, for this reason"),
+    OPTION("point", NUMBERS, point, .count = offsetof(struct arguments, n_point),
+           .sentence = "variables of an evaluation made elsewhere"),
+    OPTION("table", TEXT, table,
+           .sentence =
+               "CSV file of results ('-': standard input) with the columns id and f and one "
+               "per constraint"),
+    OPTION("json", SWITCH, json, .sentence = "one JSON object"),
+};
+static const struct settings TABLE = {
+    sizeof ROWS / sizeof *ROWS, ROWS,
+    .usage =
+        "usage: bayesopt tell STORE ID VALUE [--constraints A,B,...]\n"
+        "       bayesopt tell STORE ID --failed REASON\n"
+        "       bayesopt tell STORE VALUE --point X1,X2,... [--constraints A,B,...]\n"
+        "       bayesopt tell STORE --table FILE.csv\n"
+        "\n"
+        "Records the result at an asked point, that its evaluation failed, an evaluation made\n"
+        "elsewhere, or a table of results. VALUE is a number; nan and inf count as "
+        "failures.\n\n"};
 
 static bool parse_value(const char *text, double *value)
 {
     char *end;
     *value = strtod(text, &end);
-    return end != text && *end == '\0';
+    return (end != text && *end == '\0') || cli_refuse("value '%s' is not a number", text);
 }
 
-/* The list of an option with the count it must have; NULL text gives NULL numbers. */
-static bool numbers(const char *text, size_t n, const char *what, double **out)
+static bool parse_id(const char *text, size_t *id)
 {
-    size_t count = 0;
-    *out = NULL;
-    if (!text && n == 0)
-        return true;
-    if (!text || !cli_parse_list(text, out, &count) || count != n) {
-        cli_fail("%s '%s': expected %zu numbers a,b,...", what, text ? text : "", n);
-        return false;
-    }
-    return true;
+    return cli_parse_size(text, id) || cli_refuse("id '%s' is not a whole number", text);
+}
+
+static bool counts(size_t n, size_t expected, const char *what)
+{
+    return n == expected || cli_refuse("%s: %zu numbers, expected %zu", what, n, expected);
 }
 
 static bool tell_one(bayesopt *bo, const struct names *names, const struct arguments *a)
 {
-    double value = NAN, *x = NULL, *constraints = NULL;
+    double value = NAN;
     size_t id = 0;
-    bayesopt_status status;
-    if (a->failed) {
-        if (!cli_parse_size(a->words[0], &id)) {
-            cli_fail("id '%s' is not a whole number", a->words[0]);
-            return false;
-        }
-        status = bayesopt_tell_failed(bo, id, a->failed);
-    } else {
-        const char *text = a->words[a->count - 1];
-        if (!parse_value(text, &value)) {
-            cli_fail("value '%s' is not a number", text);
-            return false;
-        }
-        if (!a->point && !cli_parse_size(a->words[0], &id)) {
-            cli_fail("id '%s' is not a whole number", a->words[0]);
-            return false;
-        }
-        if (!numbers(a->constraints, names->m, "--constraints", &constraints))
-            return false;
-        if (a->point && !numbers(a->point, names->d, "--point", &x)) {
-            free(constraints);
-            return false;
-        }
-        status = a->point ? bayesopt_tell_point(bo, x, value, constraints)
-                          : bayesopt_tell(bo, id, value, constraints);
-    }
-    free(x);
-    free(constraints);
-    if (status)
-        cli_fail("%s", bayesopt_last_error());
-    return !status;
+    if (!a->point && !parse_id(a->words[0], &id))
+        return false;
+    if (!a->failed && (!parse_value(a->words[a->n_words - 1], &value) ||
+                       !counts(a->n_constraints, names->m, "--constraints") ||
+                       (a->point && !counts(a->n_point, names->d, "--point"))))
+        return false;
+    bayesopt_status status = a->failed  ? bayesopt_tell_failed(bo, id, a->failed)
+                             : a->point ? bayesopt_tell_point(bo, a->point, value, a->constraints)
+                                        : bayesopt_tell(bo, id, value, a->constraints);
+    return !status || cli_refuse("%s", bayesopt_last_error());
+}
+
+/* Column of a name; prints the sentence if there is none. */
+static bool find_column(const struct cli_table *table, const char *path, const char *name,
+                        size_t *column)
+{
+    int found = cli_table_column(table, name);
+    *column = (size_t)found;
+    return found >= 0 || cli_refuse("%s: expected a column '%s'", path, name);
 }
 
 static bool tell_table(bayesopt *bo, const struct names *names, const char *path)
 {
     struct cli_table table;
+    size_t id, f;
     if (!cli_table_read(path, &table))
         return false;
-    int id = cli_table_column(&table, "id"), f = cli_table_column(&table, "f");
     double *constraints = malloc((names->m + 1) * sizeof *constraints);
-    bool ok = constraints && id >= 0 && f >= 0;
-    if (!ok)
-        cli_fail("%s: expected the columns id and f", path);
+    size_t *columns = malloc((names->m + 1) * sizeof *columns);
+    bool ok = (constraints && columns) || cli_refuse("out of memory");
+    ok = ok && find_column(&table, path, "id", &id) && find_column(&table, path, "f", &f);
+    for (size_t k = 0; k < names->m && ok; k++)
+        ok = find_column(&table, path, names->constraints[k], &columns[k]);
     for (size_t i = 0; i < table.rows && ok; i++) {
         const double *row = table.values + i * table.columns;
-        for (size_t k = 0; k < names->m && ok; k++) {
-            int column = cli_table_column(&table, names->constraints[k]);
-            ok = column >= 0;
-            if (ok)
-                constraints[k] = row[column];
-            else
-                cli_fail("%s: expected a column '%s'", path, names->constraints[k]);
-        }
-        if (ok && bayesopt_tell(bo, (uint64_t)row[id], row[f], names->m ? constraints : NULL)) {
-            cli_fail("%s: row %zu: %s", path, i + 1, bayesopt_last_error());
-            ok = false;
-        }
+        for (size_t k = 0; k < names->m; k++)
+            constraints[k] = row[columns[k]];
+        if (bayesopt_tell(bo, (uint64_t)row[id], row[f], names->m ? constraints : NULL))
+            ok = cli_refuse("%s: row %zu: %s", path, i + 1, bayesopt_last_error());
     }
+    free(columns);
     free(constraints);
     cli_table_free(&table);
     return ok;
 }
 
-enum { CONSTRAINTS = 1000, FAILED, POINT, TABLE, JSON, THREADS, HELP };
-
-static int parse(int argc, char **argv, struct arguments *a)
-{
-    static const struct option options[] = {
-        {"constraints", required_argument, NULL, CONSTRAINTS},
-        {"failed", required_argument, NULL, FAILED},
-        {"point", required_argument, NULL, POINT},
-        {"table", required_argument, NULL, TABLE},
-        {"json", no_argument, NULL, JSON},
-        {"threads", required_argument, NULL, THREADS},
-        {"help", no_argument, NULL, HELP},
-        {NULL, 0, NULL, 0},
-    };
-    int option;
-    /* A leading '+' ends options at the first word, so that negative values pass as words; options
-     * may follow, hence the loop over what is left. */
-    while (optind < argc) {
-        if (argv[optind][0] != '-' || strlen(argv[optind]) < 2 || argv[optind][1] != '-') {
-            a->words[a->count++] = argv[optind++];
-            continue;
-        }
-        option = getopt_long(argc, argv, "+", options, NULL);
-        if (option == CONSTRAINTS)
-            a->constraints = optarg;
-        else if (option == FAILED)
-            a->failed = optarg;
-        else if (option == POINT)
-            a->point = optarg;
-        else if (option == TABLE)
-            a->table = optarg;
-        else if (option == JSON)
-            a->json = true;
-        else if (option == HELP)
-            return -1;
-        else if (option != THREADS)
-            return cli_usage("unknown option or missing value");
-    }
-    int expected = a->table ? 1 : a->failed || a->point ? 2 : 3;
-    return a->count == expected ? CLI_OK
-                                : cli_usage("%d words, expected %d: STORE and what was evaluated",
-                                            a->count, expected);
-}
-
-static int tell(const struct arguments *given, const char *store)
+static bool tell(const struct arguments *a)
 {
     bayesopt *bo;
     struct names names;
-    if (!store_open_to_write(store, &bo, &names))
-        return CLI_FAILED;
-    bool ok = given->table ? tell_table(bo, &names, given->table) : tell_one(bo, &names, given);
-    if (ok && given->json) {
-        json_t *root = json_pack("{s:I}", "evaluations", (json_int_t)bayesopt_count(bo));
-        json_dumpf(root, stdout, JSON_INDENT(2));
-        json_decref(root);
-    }
+    if (!store_open_to_write(a->store, &bo, &names))
+        return false;
+    bool ok = a->table ? tell_table(bo, &names, a->table) : tell_one(bo, &names, a);
+    if (ok && a->json)
+        print_json(stdout, json_pack("{s:I}", "evaluations", (json_int_t)bayesopt_count(bo)));
     names_free(&names);
     bayesopt_free(bo);
-    return ok ? CLI_OK : CLI_FAILED;
+    return ok;
 }
 
 int command_tell(int argc, char **argv)
@@ -188,16 +124,15 @@ int command_tell(int argc, char **argv)
     struct arguments a = {.words = calloc((size_t)argc, sizeof *a.words)};
     if (!a.words)
         return cli_fail("out of memory");
-    optind = 1;
-    int code = parse(argc, argv, &a);
-    if (code < 0) {
-        code = cli_print(help);
-    } else if (code == CLI_OK) {
-        struct arguments rest = a;
-        rest.words = a.words + 1;
-        rest.count = a.count - 1;
-        code = tell(&rest, a.words[0]);
-    }
+    settings_start(&TABLE, &a);
+    int code = settings_options(argc, argv, &TABLE, &a, &a.n_words, a.words);
+    size_t expected = a.table ? 0 : a.failed || a.point ? 1 : 2;
+    if (code < 0 && a.n_words != expected)
+        code = cli_usage("%zu words after STORE, expected %zu: what was evaluated", a.n_words,
+                         expected);
+    if (code < 0)
+        code = tell(&a) ? CLI_OK : CLI_FAILED;
+    settings_free(&TABLE, &a);
     free(a.words);
     return code;
 }
