@@ -199,9 +199,12 @@ bool solve_draw_pressure(const struct solve_run *run, const struct patch_sample 
     struct plot plot;
     if (!plot_open(&plot, WIDTH, TOP + height[0] + GAP + height[1] + 60, "Pressure on the hull"))
         return false;
+    char speed[80] = "without waves";
+    if (isfinite(last->options.froude))
+        snprintf(speed, sizeof speed, "at Fr %.4g, %s", last->options.froude,
+                 igabem_formulation_name(last->options.formulation));
     plot_text(&plot, 70, 22, 13, PLOT_START, PLOT_INK,
-              "C_{p} at Fr %.4g, %s, from the side and from below; lines %.2g apart",
-              last->options.froude, igabem_formulation_name(last->options.formulation),
+              "C_{p} %s, from the side and from below; lines %.2g apart", speed,
               plot_tick_step(scale.axis.high - scale.axis.low, LEVELS, false));
     bool good = true;
     for (size_t v = 0; v < 2 && good; v++) {
