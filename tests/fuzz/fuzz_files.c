@@ -82,8 +82,21 @@ static void check_mesh(const char *path)
     nurbs_mesh_free(mesh);
 }
 
+static void check_sections(const char *path)
+{
+    nurbs_grid *grid = NULL;
+    nurbs_status status = strstr(path, ".stations") ? nurbs_stations_read(path, 0, &grid)
+                                                    : nurbs_offsets_read(path, 0, &grid, NULL);
+    CU_ASSERT_TRUE(status == NURBS_OK || (!grid && strlen(nurbs_last_error()) > 10));
+    nurbs_grid_free(grid);
+}
+
 static void check_reader(const char *path, int grid)
 {
+    if (strstr(path, ".offsets.csv") || strstr(path, ".stations")) {
+        check_sections(path);
+        return;
+    }
     if (strstr(path, ".stl") || strstr(path, ".obj")) {
         check_mesh(path);
         return;
@@ -251,6 +264,28 @@ static void test_obj(void)
     unlink(path);
 }
 
+static void test_offsets(void)
+{
+    static const char instead[10] = {'9', '-', ',', '#', 'k', ' ', '\n', '.', '\0', (char)0xff};
+    fuzz(EXAMPLES_DIR "/hulls/series60.offsets.csv", ".offsets.csv", 0);
+    sweep(EXAMPLES_DIR "/hulls/series60.offsets.csv", ".offsets.csv", instead);
+}
+
+static void test_stations(void)
+{
+    const char *folder = getenv("TMPDIR");
+    char path[512];
+    snprintf(path, sizeof path, "%s/fuzz_source_%ld.stations", folder ? folder : "/tmp",
+             (long)getpid());
+    FILE *stream = fopen(path, "w");
+    CU_ASSERT_PTR_NOT_NULL_FATAL(stream);
+    for (int k = 0; k < 20; k++)
+        fprintf(stream, k % 5 ? "%d, %g\n" : "%d\n", k % 5 ? 5 - k % 5 : k, -0.2 * (k % 5));
+    fclose(stream);
+    fuzz(path, ".stations", 0);
+    unlink(path);
+}
+
 static void test_grid(void)
 {
     const char *folder = getenv("TMPDIR");
@@ -278,6 +313,8 @@ static const struct check_case cases[] = {
     {"every byte of STEP files", test_step_bytes},
     {"damaged STL files", test_stl},
     {"damaged OBJ files", test_obj},
+    {"damaged offset tables", test_offsets},
+    {"damaged station files", test_stations},
     {"damaged grids", test_grid},
 };
 

@@ -162,6 +162,31 @@ static int skin_grid(const nurbs_grid *grid, const struct request *request)
     return code;
 }
 
+static bool ends_with(const char *path, const char *end)
+{
+    size_t length = strlen(path), n = strlen(end);
+    return length > n && strcmp(path + length - n, end) == 0;
+}
+
+/* A grid, an offset table or a station file; a table tells its length and knuckle. */
+static nurbs_status read_sections(const char *path, struct request *request, nurbs_grid **grid)
+{
+    nurbs_offsets_info info;
+    if (ends_with(path, ".stations"))
+        return nurbs_stations_read(path, 0, grid);
+    if (!ends_with(path, ".offsets.csv"))
+        return nurbs_grid_read(path, grid);
+    nurbs_status status = nurbs_offsets_read(path, 0, grid, &info);
+    if (status == NURBS_OK && !(request->length > 0))
+        request->length = info.length;
+    if (status == NURBS_OK && info.chine > 0 && request->skin.chine_count == 0) {
+        request->chine[0] = info.chine;
+        request->skin.chine = request->chine;
+        request->skin.chine_count = 1;
+    }
+    return status;
+}
+
 static int run(int argc, char **argv, double tolerance)
 {
     struct request request = {.tolerance = tolerance};
@@ -170,7 +195,7 @@ static int run(int argc, char **argv, double tolerance)
     int code = parse(argc, argv, &request);
     if (code != CLI_OK)
         return code;
-    if (nurbs_grid_read(argv[optind], &grid) != NURBS_OK)
+    if (read_sections(argv[optind], &request, &grid) != NURBS_OK)
         return library_failure();
     code = skin_grid(grid, &request);
     nurbs_grid_free(grid);
@@ -205,6 +230,7 @@ const subcommand skin_command = {
     "usage: nurbs skin GRID.csv -o FILE [options]\n"
     "  One surface through every point of the grid; u runs along the rows (sections), v along\n"
     "  the columns. The parameters of the points are kept in the file for 'nurbs grid'.\n"
+    "  GRID may also be an offset table, FILE.offsets.csv, or a station file, FILE.stations.\n"
     "  --tolerance T  drop control points as long as the surface moves less than T "
     "metres\n" SKIN_OPTIONS};
 

@@ -21,6 +21,7 @@
 #include <nurbs/io.h>
 #include <nurbs/mesh.h>
 #include <nurbs/modify.h>
+#include <nurbs/offsets.h>
 #include <nurbs/patches.h>
 #include <nurbs/primitives.h>
 #include <nurbs/section.h>
