@@ -189,8 +189,8 @@ static void failures_leave_no_files(void)
 {
     nurbs_patches *patches = two_bodies(), *empty;
     CU_ASSERT_EQUAL(nurbs_patches_write(patches, "/nonexistent/x.json"), NURBS_ERROR_FILE);
-    CU_ASSERT_EQUAL(nurbs_patches_write(patches, "hull.step"), NURBS_ERROR_ARGUMENT);
-    CU_ASSERT_PTR_NOT_NULL(strstr(nurbs_last_error(), "hull.step"));
+    CU_ASSERT_EQUAL(nurbs_patches_write(patches, "hull.dxf"), NURBS_ERROR_ARGUMENT);
+    CU_ASSERT_PTR_NOT_NULL(strstr(nurbs_last_error(), "hull.dxf"));
     CU_ASSERT_EQUAL(nurbs_patches_read("hull.stl", &empty), NURBS_ERROR_ARGUMENT);
     CU_ASSERT_EQUAL(nurbs_patches_read("nothing.json", &empty), NURBS_ERROR_FILE);
     CU_ASSERT_EQUAL_FATAL(nurbs_patches_create(&empty), NURBS_OK);

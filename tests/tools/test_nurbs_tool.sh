@@ -74,8 +74,8 @@ says "nothing.json"
 printf '{"format":"nurbs","version":1,"patches":[{"degree":[3,3],"size":[4,4],"knots":[[0]]}]}' >bad.json
 expect 1 "$nurbs" info bad.json
 says "bad.json: patch 0"
-expect 1 "$nurbs" convert "$hulls/wigley.json" hull.step
-says "hull.step"
+expect 1 "$nurbs" convert "$hulls/wigley.json" hull.dxf
+says "hull.dxf"
 expect 1 "$nurbs" wetted "$hulls/wigley.json" --level 1 -o x.json
 says "u = 0"
 expect 1 "$nurbs" eval "$hulls/wigley.json" --patch 3 --at /dev/null
