@@ -286,6 +286,57 @@ static void resamples_what_is_not_exact(void)
     CU_ASSERT_PTR_NOT_NULL(strstr(report, "510 face D"));
 }
 
+/* A square 128 in which a circle is given in space only: kept whole without a tolerance, and told.
+ */
+static void follows_curves_in_space(void)
+{
+    static iges_writer w;
+    w.count = 0;
+    int square = iges_add(&w, 128, 0, DEPENDENT, 0,
+                          "128,1,1,1,1,0,0,1,0,0,0,0,1,1,0,0,1,1,1,1,1,1,-1,-1,0,1,-1,0,-1,1,0,1,1,"
+                          "0,0,1,0,1;");
+    int circle = arc(&w, 0, 0.5, 0, 2 * pi);
+    int loop = iges_add(&w, 142, 0, DEPENDENT, 0, "142,0,%d,0,%d,2;", square, circle);
+    iges_add(&w, 144, 0, GEOMETRY, 0, "144,%d,1,0,%d;", square, loop);
+    check_moments(&w, "6,1HM", 0, 1, 4, NAN, 1e-12);
+    CU_ASSERT_PTR_NOT_NULL(strstr(report, "no curves in parameter space: the whole surface D1"));
+    check_moments(&w, "6,1HM", 1e-6, 0, pi / 4, NAN, 1e-5);
+    CU_ASSERT_PTR_NOT_NULL(strstr(report, "1 of these resampled"));
+}
+
+/* Lengths of a conic arc, a polyline and a parametric cubic, as curves for skinning. */
+static void reads_curves_of_other_kinds(void)
+{
+    static iges_writer w;
+    size_t n;
+    nurbs_curve **curves;
+    w.count = 0;
+    iges_add(&w, 104, 1, GEOMETRY, 0, "104,0.0625,0,0.25,0,0,-1,2,4,0,-4,0;");
+    iges_add(&w, 106, 12, GEOMETRY, 0, "106,2,3,0,0,0,3,0,4,3,5,4;");
+    iges_add(&w, 112, 0, GEOMETRY, 0,
+             "112,3,3,3,2,0,1,3,0,1,0,0,0,0,1,0,7,0,0,0,1,1,0,0,1,2,1,0,7,0,0,0;");
+    const char *path = iges_save(&w, "6,1HM");
+    CU_ASSERT_EQUAL_FATAL(nurbs_curves_read_iges(path, &n, &curves), NURBS_OK);
+    unlink(path);
+    CU_ASSERT_EQUAL_FATAL(n, 3);
+    for (int k = 0; k <= 16; k++) {
+        const double *knots = nurbs_curve_knots(curves[0]);
+        double u = knots[0] + (knots[nurbs_curve_size(curves[0])] - knots[0]) * k / 16, p[3];
+        CU_ASSERT_EQUAL(nurbs_curve_eval(curves[0], 0, 1, &u, p), NURBS_OK);
+        CHECK_CLOSE(p[0] * p[0] / 16 + p[1] * p[1] / 4, 1, 1e-14);
+        CHECK_CLOSE(p[2], 2, 1e-15);
+        double v = 3.0 * k / 16; /* y = x^2 at z = 7 */
+        CU_ASSERT_EQUAL(nurbs_curve_eval(curves[2], 0, 1, &v, p), NURBS_OK);
+        CHECK_CLOSE(p[0], v, 1e-14);
+        CHECK_CLOSE(p[1], v * v, 1e-13);
+        CHECK_CLOSE(p[2], 7, 1e-14);
+    }
+    CU_ASSERT_EQUAL(nurbs_curve_size(curves[1]), 3);
+    CHECK_CLOSE(nurbs_curve_points(curves[1])[4], 0, 0);
+    CHECK_CLOSE(nurbs_curve_points(curves[1])[7], 5, 0);
+    nurbs_curves_free(n, curves);
+}
+
 static void reads_offsets(void)
 {
     static iges_writer w;
@@ -379,6 +430,8 @@ static const struct check_case cases[] = {
     {"reads planes inside their curves", reads_planes_inside_their_curves},
     {"reads quadrics inside their loops", reads_quadrics_inside_their_loops},
     {"resamples what is not exact", resamples_what_is_not_exact},
+    {"follows curves in space", follows_curves_in_space},
+    {"reads curves of other kinds", reads_curves_of_other_kinds},
     {"reads offsets", reads_offsets},
     {"places subfigures", places_subfigures},
     {"leaves out what is blank", leaves_out_what_is_blank},

@@ -210,6 +210,32 @@ static void reads_units_and_mapped_items(void)
     nurbs_patches_free(patches);
 }
 
+/* Surfaces by themselves: a quarter of a cylinder between parameters, and what is not read. */
+static void reads_rectangles_and_tells_the_rest(void)
+{
+    char text[sizeof cone_text + 300];
+    const char *at = strstr(cone_text, "#35=");
+    snprintf(text, sizeof text, "%.*s%s%s", (int)(at - cone_text), cone_text,
+             "#50=CYLINDRICAL_SURFACE('',#37,2.);\n"
+             "#51=RECTANGULAR_TRIMMED_SURFACE('',#50,0.,90.,1.,4.,.T.,.T.);\n"
+             "#52=RECTANGULAR_TRIMMED_SURFACE('',#34,0.25,0.75,0.,0.5,.T.,.T.);\n"
+             "#53=TESSELLATED_SOLID('',(),$);\n"
+             "#35=GEOMETRIC_SET('',(#51,#52,#53));\n",
+             strchr(at, '\n') + 1);
+    const char *path = write_scratch("set.step", text);
+    nurbs_patches *patches = read_patches(path, 0);
+    unlink(path);
+    double area;
+    const double foot = 0.3048;
+    CU_ASSERT_EQUAL_FATAL(nurbs_patches_count(patches), 3);
+    CU_ASSERT_EQUAL(nurbs_surface_area(nurbs_patches_get(patches, 1), &area, NULL), NURBS_OK);
+    CHECK_RELATIVE(area, pi / 2 * 2 * 3 * foot * foot, 1e-10);
+    CU_ASSERT_EQUAL(nurbs_surface_area(nurbs_patches_get(patches, 2), &area, NULL), NURBS_OK);
+    CHECK_RELATIVE(area, 0.5 * 1 * foot * foot, 1e-12);
+    CU_ASSERT_PTR_NOT_NULL(strstr(report, "TESSELLATED_SOLID #53 is left out: it is not read"));
+    nurbs_patches_free(patches);
+}
+
 static void refuses_damaged_files(void)
 {
     static const struct {
@@ -263,6 +289,7 @@ static const struct check_case cases[] = {
     {"barge has its closed form", barge_has_its_closed_form},
     {"writing and reading restores every bit", writing_and_reading_restores_every_bit},
     {"reads units and mapped items", reads_units_and_mapped_items},
+    {"reads rectangles and tells the rest", reads_rectangles_and_tells_the_rest},
     {"refuses damaged files", refuses_damaged_files},
 };
 

@@ -60,9 +60,10 @@ NURBS_API nurbs_status nurbs_patches_read_step(const char *path, double toleranc
  * edge none. */
 NURBS_API nurbs_status nurbs_patches_write_step(const nurbs_patches *patches, const char *path);
 
-/** Curves of an IGES file in metres: entities 126 (B-spline), 110 (line) and 100 (circular arc,
- * exact as a rational quadratic), and the parts of composite curves 102 in their order. Curves that
- * only serve another entity (physically dependent) are left out.
+/** Curves of an IGES file in metres: entities 126 (B-spline), 112 (parametric spline), 106 (points
+ * joined by lines), 110 (line), 100 and 104 (circular and conic arcs, exact as rational
+ * quadratics), and the parts of composite curves 102 in their order. Curves that only serve another
+ * entity (physically dependent) are left out.
  * @param n       fills the number of curves; 0 is no error
  * @param curves  creates an array of n curves: nurbs_curves_free() */
 NURBS_API nurbs_status nurbs_curves_read_iges(const char *path, size_t *n, nurbs_curve ***curves);

@@ -32,7 +32,7 @@ static nurbs_status append(iges_file *file, size_t entity, curve_list *list)
 static nurbs_status collect(iges_file *file, size_t entity, int depth, curve_list *list)
 {
     int type = file->entity[entity].type;
-    if (type == 100 || type == 110 || type == 126)
+    if (type == 100 || type == 104 || type == 106 || type == 110 || type == 112 || type == 126)
         return append(file, entity, list);
     if (type != 102)
         return NURBS_OK;

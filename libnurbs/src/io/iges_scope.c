@@ -189,6 +189,31 @@ static nurbs_status untrim_face(scope_work *work, size_t entity, const iges_face
     return status;
 }
 
+static nurbs_status space_patches(scope_work *work, size_t entity, nurbs_patches *patches,
+                                  face_outcome *outcome);
+
+/* A face on a spline surface without curves in parameter space: by its curves in space. */
+static nurbs_status project_spline_face(scope_work *work, size_t entity, size_t surface)
+{
+    face_outcome outcome;
+    nurbs_patches *made = NULL;
+    nurbs_status status = nurbs_patches_create(&made);
+    if (status == NURBS_OK)
+        status = space_patches(work, entity, made, &outcome);
+    if (status == NURBS_OK) {
+        work->role[surface] |= TRIMMED;
+        tell_resampled(work, entity, surface, made, outcome.deviation);
+        status = keep_for_base(work, surface, made);
+    } else if (concerns_one(status)) {
+        iges_report(work->file, "face D%zu trims surface D%zu: the whole surface is kept: %s; ",
+                    iges_number(entity), iges_number(surface), nurbs_last_error());
+        work->role[surface] |= WHOLE;
+        status = NURBS_OK;
+    }
+    nurbs_patches_free(made);
+    return status;
+}
+
 /* A face on a spline surface, by its curves in parameter space. */
 static nurbs_status inspect_spline_face(scope_work *work, size_t entity)
 {
@@ -198,6 +223,10 @@ static nurbs_status inspect_spline_face(scope_work *work, size_t entity)
     if (status != NURBS_OK)
         return status;
     size_t number = iges_number(entity), surface = face.surface;
+    if (face.trim == IGES_UNKNOWN && work->tolerance > 0) {
+        iges_face_free(&face);
+        return project_spline_face(work, entity, surface);
+    }
     if (face.trim == IGES_UNKNOWN)
         iges_report(file,
                     "face D%zu has no curves in parameter space: the whole surface D%zu is kept; ",
@@ -231,21 +260,22 @@ static double edge_extent(const cad_face *f)
     return high[0] >= low[0] ? distance3(low, high) : 1;
 }
 
-/* A face by its curves in space. */
-static nurbs_status space_face(scope_work *work, size_t entity, nurbs_patches *patches)
+/* The patches of a face by its curves in space, moved as the face itself asks. */
+static nurbs_status space_patches(scope_work *work, size_t entity, nurbs_patches *patches,
+                                  face_outcome *outcome)
 {
     iges_file *file = work->file;
     cad_face f;
-    face_outcome outcome = {0};
     double matrix[9], shift[3];
     nurbs_patches *made = NULL;
+    *outcome = (face_outcome){0};
     nurbs_status status = iges_face_space(file, entity, &f);
     double tolerance = work->tolerance > 0 ? work->tolerance : default_share * edge_extent(&f);
     bool is_face = iges_is_face(file->entity[entity].type);
     if (status == NURBS_OK)
         status = nurbs_patches_create(&made);
     if (status == NURBS_OK)
-        status = face_patches(&f, tolerance, made, &outcome);
+        status = face_patches(&f, tolerance, made, outcome);
     if (status == NURBS_OK)
         status = iges_transformation(file, entity, matrix, shift);
     for (size_t k = 0; status == NURBS_OK && k < nurbs_patches_count(made); k++) {
@@ -257,21 +287,32 @@ static nurbs_status space_face(scope_work *work, size_t entity, nurbs_patches *p
             status = nurbs_patches_add(patches, moved ? moved : nurbs_patches_get(made, k));
         nurbs_surface_free(moved);
     }
-    if (status == NURBS_OK && !outcome.exact)
-        iges_report(file, "%d %s D%zu: resampled as %zu %s, deviation %.2g m; ",
-                    file->entity[entity].type, iges_type_name(file->entity[entity].type),
-                    iges_number(entity), outcome.patches, outcome.patches == 1 ? "patch" : "pieces",
-                    outcome.deviation);
-    work->tally->faces++;
-    work->tally->exact += status == NURBS_OK && outcome.exact;
-    work->tally->pieces += outcome.exact ? 0 : outcome.patches;
     nurbs_patches_free(made);
     face_free(&f);
+    return status;
+}
+
+/* A face on a surface that is given by its form. */
+static nurbs_status space_face(scope_work *work, size_t entity, nurbs_patches *patches)
+{
+    iges_file *file = work->file;
+    int type = file->entity[entity].type;
+    face_outcome outcome;
+    nurbs_status status = space_patches(work, entity, patches, &outcome);
+    work->tally->faces++;
     if (concerns_one(status)) {
         left_out(work, entity);
         return NURBS_OK;
     }
-    return status;
+    if (status != NURBS_OK)
+        return status;
+    work->tally->exact += outcome.exact;
+    work->tally->pieces += outcome.exact ? 0 : outcome.patches;
+    if (!outcome.exact)
+        iges_report(file, "%d %s D%zu: resampled as %zu %s, deviation %.2g m; ", type,
+                    iges_type_name(type), iges_number(entity), outcome.patches,
+                    outcome.patches == 1 ? "patch" : "pieces", outcome.deviation);
+    return NURBS_OK;
 }
 
 /* Marks what a face lies on; faces on spline surfaces are inspected. */

@@ -102,6 +102,50 @@ static nurbs_status read_face(scene *s, size_t instance, bool inside_out)
     return status;
 }
 
+/* RECTANGULAR_TRIMMED_SURFACE: basis, u1, u2, v1, v2, senses. Fills the range in natural
+ * parameters, which on planes, quadrics and splines are the file's, but for the scale. */
+static nurbs_status trimmed_range(const step_file *file, size_t instance, const step_record *record,
+                                  cad_form *f)
+{
+    double value[4];
+    nurbs_status status = NURBS_OK;
+    for (size_t k = 0; k < 4 && status == NURBS_OK; k++)
+        status = step_number(file, instance, step_parameter(file, record, 2 + k), &value[k]);
+    if (status != NURBS_OK)
+        return status;
+    if (f->kind == FORM_EXTRUDED || f->flipped ||
+        (f->kind == FORM_REVOLVED && f->profile == PROFILE_CURVE) ||
+        !step_flag(step_parameter(file, record, 6), true) ||
+        !step_flag(step_parameter(file, record, 7), true))
+        return nurbs_fail(NURBS_ERROR_GEOMETRY, "a rectangle of a swept surface, or against its "
+                                                "parameters");
+    bool angle[2] = {f->kind == FORM_REVOLVED,
+                     f->kind == FORM_REVOLVED && f->profile == PROFILE_CIRCLE};
+    for (int d = 0; d < 2; d++) {
+        double scale = f->kind == FORM_SPLINE ? 1 : angle[d] ? file->radians : file->metres;
+        if (d == 1 && f->kind == FORM_REVOLVED && f->profile == PROFILE_LINE)
+            scale /= f->slope[1]; /* heights of a cone are lengths of its generator */
+        f->low[d] = scale * value[2 * d];
+        f->high[d] = scale * value[2 * d + 1];
+    }
+    return NURBS_OK;
+}
+
+/* The exact surface over the limits of its form; a spline is cut to them. */
+static nurbs_status surface_within(const cad_form *form, nurbs_surface **surface)
+{
+    nurbs_status status = form_surface(form, form->low, form->high, surface);
+    for (int d = 0; d < 2 && status == NURBS_OK && form->kind == FORM_SPLINE; d++) {
+        nurbs_surface *part;
+        status = nurbs_surface_part(*surface, d, form->low[d], form->high[d], &part);
+        if (status == NURBS_OK) {
+            nurbs_surface_free(*surface);
+            *surface = part;
+        }
+    }
+    return status;
+}
+
 /* A surface by itself: whole, if it ends. */
 static nurbs_status read_surface(scene *s, size_t instance)
 {
@@ -110,9 +154,12 @@ static nurbs_status read_surface(scene *s, size_t instance)
     char name[64];
     nurbs_surface *surface = NULL;
     nurbs_patches *made = NULL;
+    const step_record *rectangle = step_record_of(file, instance, "RECTANGULAR_TRIMMED_SURFACE");
     nurbs_status status = step_form(file, instance, 0, &form);
+    if (status == NURBS_OK && rectangle)
+        status = trimmed_range(file, instance, rectangle, &form);
     if (status == NURBS_OK)
-        status = form_surface(&form, form.low, form.high, &surface);
+        status = surface_within(&form, &surface);
     if (status == NURBS_OK)
         status = nurbs_patches_create(&made);
     if (status == NURBS_OK)
@@ -213,6 +260,24 @@ static nurbs_status read_solid(scene *s, size_t instance, const step_record *rec
     return status;
 }
 
+/* Placements, points, curves and annotations are nobody's hull; anything else that is not read is
+ * told. */
+static void tell_unread(scene *s, size_t instance)
+{
+    static const char *const shapes[] = {"SURFACE", "SOLID",       "BREP", "SHELL",
+                                         "FACE",    "TESSELLATED", "PLANE"};
+    char name[64];
+    step_name(s->file, instance, name);
+    bool shape = false;
+    for (size_t k = 0; k < sizeof shapes / sizeof *shapes; k++)
+        shape |= strstr(name, shapes[k]) != NULL;
+    if (!shape)
+        return;
+    step_report(s->file, "%s #%zu is left out: it is not read; ", name,
+                s->file->instance[instance].id);
+    s->left_out++;
+}
+
 static nurbs_status read_item(scene *s, size_t instance, bool inside_out, int depth)
 {
     step_file *file = s->file;
@@ -243,7 +308,8 @@ static nurbs_status read_item(scene *s, size_t instance, bool inside_out, int de
     if (step_is_spline(file, instance, true) ||
         step_record_of(file, instance, "RECTANGULAR_TRIMMED_SURFACE"))
         return read_surface(s, instance);
-    return NURBS_OK; /* placements, points, curves, annotations */
+    tell_unread(s, instance);
+    return NURBS_OK;
 }
 
 /* Everything in a representation and those that share its coordinates, and what stands inside. */
