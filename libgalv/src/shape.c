@@ -89,3 +89,23 @@ galv_status galv_shape_displace(const galv_shape *shape, size_t npoints, const d
                              "xyz"[i % 3], d[i]);
     return GALV_OK;
 }
+
+galv_status galv_box_around(size_t npoints, const double *xyz, galv_box *box)
+{
+    static const char axis[] = "xyz";
+    if (!npoints || !xyz || !box)
+        return galv_fail(GALV_ERROR_ARGUMENT, "points and a box must be given");
+    for (size_t a = 0; a < 3; a++) {
+        double low = INFINITY, high = -INFINITY;
+        for (size_t k = 0; k < npoints; k++) {
+            low = fmin(low, xyz[3 * k + a]);
+            high = fmax(high, xyz[3 * k + a]);
+        }
+        if (!isfinite(high - low) || !(high > low))
+            return galv_fail(GALV_ERROR_GEOMETRY, "%zu points from %c = %g to %g have no extent",
+                             npoints, axis[a], low, high);
+        box->origin[a] = low;
+        box->length[a] = high - low;
+    }
+    return GALV_OK;
+}

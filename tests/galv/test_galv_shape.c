@@ -239,7 +239,26 @@ static void test_high_orders(void)
     galv_shape_free(shape);
 }
 
+static void test_box_around(void)
+{
+    const double points[] = {1, -2, 5, -3, 0.5, 4, 0, 0, 4.5};
+    galv_box box;
+    CU_ASSERT_EQUAL(galv_box_around(3, points, &box), GALV_OK);
+    const double origin[] = {-3, -2, 4}, length[] = {4, 2.5, 1};
+    for (int a = 0; a < 3; a++) {
+        CU_ASSERT_EQUAL(box.origin[a], origin[a]);
+        CU_ASSERT_EQUAL(box.length[a], length[a]);
+    }
+    const double flat[] = {0, 1, 0, 1, 1, 1}, broken[] = {0, 0, 0, 1, NAN, 1, 2, INFINITY, 2};
+    CU_ASSERT_EQUAL(galv_box_around(2, flat, &box), GALV_ERROR_GEOMETRY);
+    CU_ASSERT_EQUAL(galv_box_around(3, broken, &box), GALV_ERROR_GEOMETRY);
+    CU_ASSERT_EQUAL(galv_box_around(0, points, &box), GALV_ERROR_ARGUMENT);
+    CU_ASSERT_EQUAL(galv_box_around(3, NULL, &box), GALV_ERROR_ARGUMENT);
+    CU_ASSERT_EQUAL(galv_box_around(3, points, NULL), GALV_ERROR_ARGUMENT);
+}
+
 static const struct check_case cases[] = {
+    {"the box around points", test_box_around},
     {"sine products equal eqs. 16-17", test_sines_match_definition},
     {"any direction, order and phase", test_any_direction_and_phase},
     {"rows of a model equal single displacements", test_rows_match_single_displacements},

@@ -25,6 +25,10 @@ typedef struct galv_box {
     double length[3]; /**< > 0 */
 } galv_box;
 
+/** Fills the smallest box around npoints triples. Error: GALV_ERROR_GEOMETRY where it has no extent
+ * along an axis. */
+GALV_API galv_status galv_box_around(size_t npoints, const double *xyz, galv_box *box);
+
 /** One function of eq. 17: psi = prod_j sin(order[j] pi zeta_j / L_j + phase[j]) e_direction, with
  * zeta = point - box origin and L the box lengths. */
 typedef struct galv_sine {

@@ -10,6 +10,7 @@
 #define IGABEM_HULL_H
 
 #include <igabem/status.h>
+#include <nurbs/hull.h>
 #include <nurbs/integrals.h>
 #include <nurbs/surface.h>
 
@@ -33,6 +34,10 @@ enum {
  * an edge, two at the waterline, no volume enclosed). */
 IGABEM_API igabem_status igabem_hull_create(const nurbs_surface *const *patches, size_t n,
                                             unsigned flags, igabem_hull **hull);
+
+/** The same from the light surfaces of a hull read or rebuilt by libnurbs (nurbs/hull.h), with its
+ * reference length; copies them. Errors as above. */
+IGABEM_API igabem_status igabem_hull_from(const nurbs_hull *source, igabem_hull **hull);
 IGABEM_API void igabem_hull_free(igabem_hull *hull);
 
 /** Reference length of Froude number and coefficients, m; default: waterline length, or the body's

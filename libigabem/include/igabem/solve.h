@@ -150,6 +150,11 @@ typedef struct igabem_forces {
 IGABEM_API igabem_status igabem_forces_compute(const igabem_solution *solution,
                                                igabem_forces *forces);
 
+/** Resistance of a hull of libnurbs in one call: igabem_hull_from(), igabem_solve(),
+ * igabem_forces_compute(). Over an optimisation freeze the options on the parent first. */
+IGABEM_API igabem_status igabem_solve_hull(const nurbs_hull *hull, const igabem_options *options,
+                                           igabem_forces *forces);
+
 /** The settings as they were used: no NAN, no automatic. Borrowed. */
 IGABEM_API const igabem_options *igabem_solution_options(const igabem_solution *solution);
 

@@ -47,6 +47,10 @@ NURBS_API nurbs_status nurbs_hull_read(const char *path, const nurbs_hull_option
 /** The same from surfaces; copies them, with their length and design grid. */
 NURBS_API nurbs_status nurbs_hull_create(const nurbs_patches *patches,
                                          const nurbs_hull_options *options, nurbs_hull **hull);
+/** The same from n surfaces that belong to no file; copies them. */
+NURBS_API nurbs_status nurbs_hull_create_surfaces(size_t n, const nurbs_surface *const *surfaces,
+                                                  const nurbs_hull_options *options,
+                                                  nurbs_hull **hull);
 NURBS_API void nurbs_hull_free(nurbs_hull *hull);
 
 /** Creates the design grid of a hull of one patch: points on it that a shape family may move, the

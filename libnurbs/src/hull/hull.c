@@ -155,6 +155,22 @@ nurbs_status nurbs_hull_create(const nurbs_patches *patches, const nurbs_hull_op
     return NURBS_OK;
 }
 
+nurbs_status nurbs_hull_create_surfaces(size_t n, const nurbs_surface *const *surfaces,
+                                        const nurbs_hull_options *options, nurbs_hull **hull)
+{
+    nurbs_patches *patches = NULL;
+    if (!n || !surfaces || !hull)
+        return nurbs_fail(NURBS_ERROR_ARGUMENT, "surfaces and a place for the hull must be given");
+    *hull = NULL;
+    nurbs_status status = nurbs_patches_create(&patches);
+    for (size_t k = 0; k < n && !status; k++)
+        status = nurbs_patches_add(patches, surfaces[k]);
+    if (!status)
+        status = nurbs_hull_create(patches, options, hull);
+    nurbs_patches_free(patches);
+    return status;
+}
+
 void nurbs_hull_free(nurbs_hull *hull)
 {
     if (!hull)
