@@ -80,14 +80,21 @@ galv_status galv_latent_check(const galv_model *model, const double *u)
     return check_finite("latent coordinate", model->modes, u);
 }
 
-void galv_model_displacement(const galv_model *model, const double *u, size_t n, double *d)
+void galv_add_modes(size_t m, const double *modes, size_t stride, const double *u, size_t n,
+                    double *d)
 {
-    memcpy(d, model->mean, n * sizeof *d);
-    for (size_t m = 0; m < model->modes; m++) {
-        const double *mode = model->vectors + m * model->coordinates;
-        for (size_t k = 0; k < n; k++)
-            d[k] += u[m] * mode[k];
+    for (size_t k = 0; k < m; k++) {
+        const double *mode = modes + k * stride;
+        for (size_t i = 0; i < n; i++)
+            d[i] += u[k] * mode[i];
     }
+}
+
+void galv_model_displacement(const galv_model *model, const double *u, size_t first, size_t n,
+                             double *d)
+{
+    memcpy(d, model->mean + first, n * sizeof *d);
+    galv_add_modes(model->modes, model->vectors + first, model->coordinates, u, n, d);
 }
 
 galv_status galv_reconstruct(const galv_model *model, const double *u, double *d)
@@ -97,7 +104,7 @@ galv_status galv_reconstruct(const galv_model *model, const double *u, double *d
     galv_status status = galv_latent_check(model, u);
     if (status)
         return status;
-    galv_model_displacement(model, u, model->coordinates, d);
+    galv_model_displacement(model, u, 0, model->coordinates, d);
     return GALV_OK;
 }
 
@@ -110,7 +117,7 @@ galv_status galv_displace(const galv_model *model, const double *u, double *move
     galv_status status = galv_latent_check(model, u);
     if (status)
         return status;
-    galv_model_displacement(model, u, 3 * model->points, moved);
+    galv_model_displacement(model, u, 0, 3 * model->points, moved);
     for (size_t k = 0; k < 3 * model->points; k++)
         moved[k] += model->parent[k];
     return GALV_OK;

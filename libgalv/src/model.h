@@ -30,10 +30,15 @@ struct galv_model {
 /* Arrays of the sizes set in `sizes`, zero; weights when `weighted`. NULL when memory is short. */
 galv_model *galv_model_new(const galv_model *sizes, bool weighted);
 
-/* The first n coordinates of d = mean + W1 u. A plain loop over the modes, in their order and
- * without fused operations: the same bits whatever the threads, the BLAS and the processor, so that
- * a run resumed elsewhere has the same hulls. */
-void galv_model_displacement(const galv_model *model, const double *u, size_t n, double *d);
+/* d += W u for n coordinates of m modes that lie `stride` apart. A plain loop over the modes, in
+ * their order and without fused operations: the same bits whatever the threads, the BLAS and the
+ * processor, so that a run resumed elsewhere has the same hulls. */
+void galv_add_modes(size_t m, const double *modes, size_t stride, const double *u, size_t n,
+                    double *d);
+
+/* Coordinates first..first+n-1 of d = mean + W1 u. */
+void galv_model_displacement(const galv_model *model, const double *u, size_t first, size_t n,
+                             double *d);
 
 /* Whether the latent point is finite; the failure names the coordinate. */
 galv_status galv_latent_check(const galv_model *model, const double *u);

@@ -4,8 +4,9 @@
  *
  * A family of shape modifications with n parameters (shape.h) is sampled on the points of a hull,
  * and the few directions that carry the geometric variance of the samples span the latent space
- * (model.h). Equation numbers refer to Khan, Kaklis, Kostas, Serani and Diez, "Bayesian shape
- * optimisation in high dimensional design spaces using isogeometric boundary element analysis".
+ * (model.h); what a latent point's hull will be like is known before it is built (limits.h).
+ * Equation numbers refer to Khan, Kaklis, Kostas, Serani and Diez, "Bayesian shape optimisation in
+ * high dimensional design spaces using isogeometric boundary element analysis".
  *
  * Conventions: SI units; points are x,y,z triples; a displacement vector d holds 3 npoints numbers
  * in the same order (dx, dy, dz of point 0, then of point 1, ...; eq. 3 lists all dx first, which
@@ -15,6 +16,7 @@
 #ifndef GALV_GALV_H
 #define GALV_GALV_H
 
+#include <galv/limits.h>
 #include <galv/model.h>
 #include <galv/moments.h>
 #include <galv/shape.h>
