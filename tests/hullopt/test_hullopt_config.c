@@ -53,7 +53,8 @@ static void test_all_fields(void)
         "latent: {samples: 500, seed: 7, variance: 0.9}\n"
         "reconstruction: {tolerance: 1e-3}\n"
         "flow: {froude: 0.316, gravity: 9.8, density: 1025}\n"
-        "solver: {formulation: hogner, refine: 2, elements_u: 30, elements_v: auto, degree: 4, "
+        "solver: {formulation: neumann-kelvin, refine: 2, elements_u: 30, elements_v: auto, "
+        "degree: 4, "
         "line_term: off, cutoff_factor: 1.5,\n"
         "         cutoff_angle: 5, stem_limit: 0.4, stern_length: 0.3, stern_blend: 0.02,\n"
         "         spectrum_limit: 30, tolerance: 1e-4}\n"
@@ -69,7 +70,7 @@ static void test_all_fields(void)
     CU_ASSERT_EQUAL(c.tolerance, 1e-3);
     CU_ASSERT_EQUAL(c.solver.gravity, 9.8);
     CU_ASSERT_EQUAL(c.solver.density, 1025);
-    CU_ASSERT_EQUAL(c.solver.formulation, IGABEM_FORMULATION_HOGNER);
+    CU_ASSERT_EQUAL(c.solver.formulation, IGABEM_FORMULATION_NEUMANN_KELVIN);
     CU_ASSERT_EQUAL(c.solver.refine, 2);
     CU_ASSERT_EQUAL(c.solver.elements_u, 30);
     CU_ASSERT_EQUAL(c.solver.elements_v, -1);
@@ -125,7 +126,7 @@ static const struct {
     {"latent:\n  variance: 1.5\n", ":6:", "between 0 and 1"},
     {"latent:\n  variance: 0\n", ":6:", "latent.variance"},
     {"latent:\n  variance: 0.9x\n", ":6:", "'0.9x'"},
-    {"latent: {samples: 3.5}\n", ":5:", "integer"},
+    {"latent: {samples: 3.5}\n", ":5:", "whole number from 2"},
     {"latent: {samples: 1}\n", ":5:", "latent.samples"},
     {"latent:\n  seed: -1\n", ":6:", "latent.seed"},
     {"grid:\n  sections: 2\n", ":6:", "grid.sections"},
@@ -142,9 +143,12 @@ static const struct {
     {"waves:\n  along: 1\n", ":6:", "waves.along"},
     {"verification:\n  froude: [0.3, -1]\n", ":6:", "verification.froude"},
     {"constraints:\n  speeds: 1\n", ":6:", "verification.froude"},
-    {"colour: red\n", ":5:", "unknown field 'colour'"},
-    {"search:\n  initial: 5\n  budget: 7\n", ":7:", "unknown field 'budget'"},
+    {"colour: red\n", ":5:", "no setting 'colour'"},
+    {"search:\n  initial: 5\n  budget: 7\n", ":7:", "no setting 'search.budget'"},
     {"search: 5\n", ":5:", "search"},
+    {"latent:\n  sample: 5\n", ":6:", "did you mean 'latent.samples'?"},
+    {"sovler:\n  refine: 2\n", ":5:", "did you mean 'solver'?"},
+    {"constraints:\n  pressure: 1\nsolver: {formulation: michell}\n", ":6:", "michell has not"},
 };
 
 static void test_bad_fields(void)
@@ -188,9 +192,9 @@ static void check_whole(const char *text, const char *part)
 static void test_bad_files(void)
 {
     check_whole("", "empty");
-    check_whole("hull: hull.json\nshape: shape.yaml\n", "'flow' is missing");
+    check_whole("hull: hull.json\nshape: shape.yaml\n", "flow.froude is missing");
     check_whole("hull: hull.json\nshape: shape.yaml\nflow: {gravity: 9.8}\n",
-                "'froude' is missing");
+                "flow.froude is missing");
     check_whole("hull: hull.json\nshape: shape.yaml\nflow:\n  froude: 0\n", ":4: flow.froude");
     check_whole("hull: hull.json\nshape: shape.yaml\nflow:\n  froude: -0.3\n", ":4: flow.froude");
     check_whole("hull: none.json\nshape: shape.yaml\nflow:\n  froude: 0.3\n", ":1: hull");
@@ -204,6 +208,27 @@ static void test_bad_files(void)
     capture_end(&capture, sentence, sizeof sentence);
     CU_ASSERT_FALSE(ok);
     CU_ASSERT_PTR_NOT_NULL(strstr(sentence, "No such file"));
+}
+
+/* What is wrong is told at once, in the order of the lines. */
+static void test_all_at_once(void)
+{
+    struct config c;
+    struct capture capture;
+    char sentences[2000];
+    const char *at = sentences;
+    capture_begin(&capture);
+    bool ok = read_text("hull: none.json\nshape: shape.yaml\nlatent: {samples: x}\n"
+                        "search:\n  intial: 7\n  design: latin\n",
+                        &c);
+    capture_end(&capture, sentences, sizeof sentences);
+    CU_ASSERT_FALSE(ok);
+    static const char *const parts[] = {"flow.froude is missing", ":1: hull", ":3: latent.samples",
+                                        ":5: there is no setting 'search.intial'",
+                                        ":6: search.design"};
+    for (size_t i = 0; i < sizeof parts / sizeof *parts && at; i++)
+        at = strstr(at, parts[i]);
+    CU_ASSERT_PTR_NOT_NULL(at);
 }
 
 /* Comments and order do not make another run; a value and an input file do. */
@@ -238,6 +263,7 @@ static const struct check_case cases[] = {
     {"overrides from the command line", test_overrides},
     {"bad fields", test_bad_fields},
     {"bad files", test_bad_files},
+    {"all faults at once", test_all_at_once},
     {"canonical text", test_canonical},
 };
 

@@ -384,16 +384,15 @@ static void test_canonical_text_reads_back(void)
     CU_ASSERT_TRUE(
         read_text("solver: {tolerance: 0.003, cutoff: none}\naxes: [z, x]\nspeeds: [0.28, 0.41]\n",
                   &run, NULL));
-    FILE *out = open_memstream(&text, &length);
-    settings_write(&TABLE, &run, out);
-    fclose(out);
+    text = settings_text(&TABLE, &run);
+    CU_ASSERT_PTR_NOT_NULL_FATAL(text);
     CU_ASSERT_STRING_EQUAL(text, "hull =\nsolver.tolerance = 0.003\nsolver.share = 0.95\n"
                                  "solver.cutoff = none\nsolver.refine = 1\n"
                                  "solver.formulation = auto\nsolver.line_term = true\n"
                                  "samples = 9000\nseed = 1\nbox = auto, auto, auto\naxes = z, x\n"
                                  "speeds = 0.28, 0.41\n");
     free(text);
-    out = open_memstream(&text, &length);
+    FILE *out = open_memstream(&text, &length);
     settings_help(&TABLE, &run, false, out);
     fclose(out);
     CU_ASSERT_PTR_NOT_NULL(strstr(text, "\nSolver:\n  -t, --tolerance X   relative error asked"));

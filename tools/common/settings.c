@@ -4,6 +4,7 @@
 #include "settings_internal.h"
 
 #include <errno.h>
+#include <inttypes.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -14,12 +15,27 @@
 /* Of an array in one text; no row has more. */
 enum { MOST_ENTRIES = 64 };
 
-static const struct setting_word *find_word(const struct setting *row, const char *text)
+/* The k-th word of a row and what it stands for; NULL after the last. */
+static const char *word_at(const struct setting *row, int k, double *value)
 {
-    for (const struct setting_word *word = row->words; word && word->name; word++)
-        if (strcmp(word->name, text) == 0)
-            return word;
-    return NULL;
+    if (row->choice) {
+        *value = k;
+        return row->choice(k);
+    }
+    if (!row->words || !row->words[k].name)
+        return NULL;
+    *value = row->words[k].value;
+    return row->words[k].name;
+}
+
+static bool find_word(const struct setting *row, const char *text, double *value)
+{
+    const char *word;
+    for (int k = 0; (word = word_at(row, k, value)) != NULL; k++)
+        if (strcmp(word, text) == 0)
+            return true;
+    *value = 0;
+    return false;
 }
 
 static bool inside(const struct setting *row, double value)
@@ -70,9 +86,11 @@ void settings_print_expected(const struct setting *row, FILE *out)
     else
         fprintf(out, "%s %s", row->type == SETTING_INTEGER ? "an" : "a", kinds[row->type]);
     print_range(row, out);
-    for (const struct setting_word *word = row->words; word && word->name; word++) {
-        bool first = word == row->words && row->type == SETTING_CHOICE;
-        fprintf(out, "%s%s", first ? "" : word[1].name ? ", " : " or ", word->name);
+    const char *word;
+    double value;
+    for (int k = 0; (word = word_at(row, k, &value)) != NULL; k++) {
+        const char *before = word_at(row, k + 1, &value) ? ", " : " or ";
+        fprintf(out, "%s%s", k == 0 && row->type == SETTING_CHOICE ? "" : before, word);
     }
 }
 
@@ -105,11 +123,10 @@ static bool store(const struct setting *row, const char *text, size_t i, void *t
                   const char *path)
 {
     char *at = (char *)target + row->offset;
-    const struct setting_word *word = find_word(row, text);
-    double value = word ? word->value : 0;
-    size_t count = word ? (size_t)value : 0;
-    int integer = word ? (int)value : 0;
-    bool ok = word != NULL;
+    double value;
+    bool ok = find_word(row, text, &value);
+    size_t count = ok ? (size_t)value : 0;
+    int integer = ok ? (int)value : 0;
     switch (row->type) {
     case SETTING_NUMBER:
     case SETTING_NUMBERS:
@@ -133,7 +150,13 @@ static bool store(const struct setting *row, const char *text, size_t i, void *t
             ((int *)(void *)at)[i] = integer;
         return ok;
     case SETTING_SWITCH:
-        return scan_switch(text, (bool *)at + i);
+        if (!scan_switch(text, &ok))
+            return false;
+        if (row->size == sizeof(int))
+            ((int *)(void *)at)[i] = ok;
+        else
+            ((bool *)at)[i] = ok;
+        return true;
     default: {
         char *copy = row->type == SETTING_FILE ? resolve(path, text) : strdup(text);
         free(((char **)(void *)at)[i]);
@@ -216,9 +239,10 @@ static void complain_value(struct settings_source *source, const struct setting 
 bool settings_set(struct settings_source *source, const struct setting *row, size_t line,
                   const char *name, size_t n, char *const *texts, void *target)
 {
+    double value;
     size_t bad = 0, room = row->n_most ? row->n_most : 1;
     bool list = row->type == SETTING_NUMBERS;
-    bool fill = n == 1 && row->n_least > 1 && find_word(row, texts[0]);
+    bool fill = n == 1 && row->n_least > 1 && find_word(row, texts[0], &value);
     n = fill ? row->n_least : n;
     bool fits = list || (n >= row->n_least && n <= room), ok = fits;
     if (list)
@@ -286,13 +310,14 @@ void settings_free(const struct settings *table, void *target)
 
 static void print_number(const struct setting *row, double value, FILE *out)
 {
-    const struct setting_word *word = row->words;
-    while (word && word->name && !(word->value == value || (isnan(word->value) && isnan(value))))
-        word++;
-    if (word && word->name)
-        fputs(word->name, out);
-    else
-        fprintf(out, "%.15g", value);
+    const char *word;
+    double meant;
+    for (int k = 0; (word = word_at(row, k, &meant)) != NULL; k++)
+        if (meant == value || (isnan(meant) && isnan(value))) {
+            fputs(word, out);
+            return;
+        }
+    fprintf(out, "%.15g", value);
 }
 
 static void print_entry(const struct setting *row, const char *at, size_t i, FILE *out)
@@ -315,7 +340,11 @@ static void print_entry(const struct setting *row, const char *at, size_t i, FIL
         print_number(row, ((const int *)(const void *)at)[i], out);
         break;
     case SETTING_SWITCH:
-        fputs(((const bool *)at)[i] ? "true" : "false", out);
+        fputs(
+            (row->size == sizeof(int) ? ((const int *)(const void *)at)[i] : ((const bool *)at)[i])
+                ? "true"
+                : "false",
+            out);
         break;
     case SETTING_TEXT:
     case SETTING_FILE:
@@ -344,15 +373,46 @@ char *settings_value(const struct setting *row, const void *target)
     return text;
 }
 
-void settings_write(const struct settings *table, const void *target, FILE *out)
+static bool print_file(const char *path, FILE *out)
 {
-    for (size_t r = 0; r < table->n; r++) {
+    const char *slash = strrchr(path, '/');
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        return false;
+    uint64_t hash = UINT64_C(0xcbf29ce484222325); /* FNV-1a */
+    for (int byte; (byte = getc_unlocked(file)) != EOF;)
+        hash = (hash ^ (unsigned char)byte) * UINT64_C(0x100000001b3);
+    bool ok = !ferror(file);
+    fclose(file);
+    fprintf(out, " %s (%016" PRIx64 ")", slash ? slash + 1 : path, hash);
+    return ok;
+}
+
+char *settings_text(const struct settings *table, const void *target)
+{
+    char *text = NULL;
+    size_t length;
+    FILE *out = open_memstream(&text, &length);
+    bool ok = out != NULL;
+    for (size_t r = 0; ok && r < table->n; r++) {
         const struct setting *row = &table->rows[r];
-        char *value = row->key && row->type != SETTING_ROWS ? settings_value(row, target) : NULL;
-        if (value)
-            fprintf(out, "%s =%s%s\n", row->key, *value ? " " : "", value);
+        if (!row->key || row->type == SETTING_ROWS)
+            continue;
+        char *value = settings_value(row, target);
+        ok = value != NULL;
+        fprintf(out, "%s =", row->key);
+        if (ok && *value && row->type == SETTING_FILE)
+            ok = print_file(value, out);
+        else if (ok && *value)
+            fprintf(out, " %s", value);
+        fputc('\n', out);
         free(value);
     }
+    if (out && (fclose(out) != 0 || !ok)) {
+        free(text);
+        return NULL;
+    }
+    return text;
 }
 
 /* What stands for the value in the help. */
@@ -406,7 +466,7 @@ static void print_help_row(const struct setting *row, const void *target, bool k
                  row->letter ? ", " : "", row->option, value_name(row));
     if (text && value) {
         fputs(row->sentence, text);
-        if (row->least != 0 || row->most != 0 || row->words) {
+        if (row->least != 0 || row->most != 0 || row->words || row->choice) {
             fputs("; ", text);
             settings_print_expected(row, text);
         }

@@ -16,7 +16,7 @@ enum setting_type {
     SETTING_COUNT,   /* size_t */
     SETTING_SEED,    /* uint64_t */
     SETTING_INTEGER, /* int */
-    SETTING_SWITCH,  /* bool; the options --x and --no-x take no value */
+    SETTING_SWITCH,  /* bool, or int when size says so; the options --x and --no-x take no value */
     SETTING_CHOICE,  /* int or an enumeration, one of the words */
     SETTING_TEXT,    /* char *, owned; settings_free() */
     SETTING_FILE,    /* the same; in a file relative to its folder, and it must be readable */
@@ -43,12 +43,13 @@ struct setting {
     bool required;              /* in a file; of a row without key, on the command line */
     const char *otherwise;      /* the default as text; NULL: what stands in the target already */
     const struct setting_word *words;
+    const char *(*choice)(int value); /* in place of words: value k has the k-th, then NULL */
     size_t n_least, n_most; /* n_most > 0: the target has an array of n_most such values; a word
                                alone stands for all of n_least */
     size_t count;           /* offset of a size_t for how many were given; 0: none */
     size_t given;           /* offset of a bool that becomes true when the setting is given; 0 */
     const struct settings *table; /* of the elements of SETTING_ROWS */
-    size_t size;                  /* of one of them */
+    size_t size;                  /* of one of them, or of a switch */
     const char *sentence;         /* what it means, with its unit */
 };
 
@@ -88,8 +89,9 @@ size_t settings_line(const char *path, const char *key);
 
 /* The value of a row as a file would have it; the caller frees it. */
 char *settings_value(const struct setting *row, const void *target);
-/* "key = value" lines of all rows with a key; lists of mappings are left out. */
-void settings_write(const struct settings *table, const void *target, FILE *out);
+/* "key = value" lines of all rows with a key, a file as its name and the digest of what is in it;
+ * lists of mappings are left out. The caller frees it; NULL when a file cannot be read. */
+char *settings_text(const struct settings *table, const void *target);
 /* The rows of the options, or of the keys, with sentence, range and default. */
 void settings_help(const struct settings *table, const void *target, bool keys, FILE *out);
 

@@ -184,19 +184,26 @@ static void read_value(struct settings_source *source, const struct setting *row
         free(texts);
 }
 
-/* The nearest key when it is near: a third of the letters may differ. */
-static const char *nearest(const struct settings *table, const char *key)
+/* The nearest key, or section of keys, when it is near: a third of the letters may differ. */
+static bool nearest(const struct settings *table, const char *key, char best[80])
 {
-    const char *best = NULL;
-    size_t least = 1 + strlen(key) / 3;
+    size_t least = 1 + strlen(key) / 3, dots = 0;
+    for (const char *c = key; *c; c++)
+        dots += *c == '.';
+    *best = '\0';
     for (size_t r = 0; r < table->n; r++) {
-        size_t d = table->rows[r].key ? settings_distance(key, table->rows[r].key) : least;
+        const char *known = table->rows[r].key, *end = known;
+        char name[80];
+        for (size_t k = 0; end && k <= dots; k++)
+            end = strchr(end + (k > 0), '.');
+        snprintf(name, sizeof name, "%.*s", end ? (int)(end - known) : 79, known ? known : "");
+        size_t d = settings_distance(key, name);
         if (d < least) {
             least = d;
-            best = table->rows[r].key;
+            strcpy(best, name);
         }
     }
-    return best;
+    return *best;
 }
 
 /* One key of a mapping: a setting, a section of settings, or a mistake. */
@@ -247,9 +254,10 @@ static void read_pair(struct settings_source *source, const struct settings *tab
             complain_form(source, value, line, name, NULL);
         return;
     }
-    const char *near = nearest(table, key);
+    char near[80];
+    bool found = nearest(table, key, near);
     settings_add(source, line, "there is no setting '%s'%s%s%s", name,
-                 near ? "; did you mean '" : "", near ? near : "", near ? "'?" : "");
+                 found ? "; did you mean '" : "", near, found ? "'?" : "");
 }
 
 static void read_table(struct settings_source *source, const struct settings *table,

@@ -3,6 +3,8 @@
 #ifndef HULLOPT_CONFIG_H
 #define HULLOPT_CONFIG_H
 
+#include "settings.h"
+
 #include <bayesopt/bayesopt.h>
 #include <igabem/solve.h>
 
@@ -41,13 +43,15 @@ struct config {
     char *text; /* "field = value" lines with the digests of the input files */
 };
 
+extern const struct settings CONFIG;
+
 /* Command-line replacements of two fields of the file; SIZE_MAX: not given. */
 struct config_overrides {
     size_t initial, iterations;
 };
 
-/* Reads and checks everything that needs no geometry. On failure prints one sentence with file,
- * line and field and returns false. */
+/* Reads and checks everything that needs no geometry. Prints a sentence with file, line and field
+ * for all that is wrong. */
 bool config_read(const char *path, const struct config_overrides *overrides, struct config *config);
 void config_free(struct config *config);
 
