@@ -86,7 +86,7 @@ static size_t proposals_without_improvement(const struct bayesopt *bo)
     double best = INFINITY;
     for (size_t i = 0; i < bo->n_points; i++) {
         const struct point *p = &bo->points[i];
-        if (p->state == BAYESOPT_STATE_PENDING)
+        if (!point_judged(p))
             continue;
         since += p->phase != BAYESOPT_PHASE_INITIAL;
         if (point_feasible(bo, p) && p->f < best) {

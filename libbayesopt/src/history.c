@@ -88,6 +88,11 @@ bool point_counts(const struct bayesopt *bo, const struct point *point)
     return point->state == BAYESOPT_STATE_DONE && point->level + 1 == (int)bo->options.n_levels;
 }
 
+bool point_judged(const struct point *point)
+{
+    return point->state == BAYESOPT_STATE_DONE || point->state == BAYESOPT_STATE_FAILED;
+}
+
 bool point_feasible(const struct bayesopt *bo, const struct point *point)
 {
     return point_counts(bo, point) && history_violation(bo, point) <= 0;

@@ -69,6 +69,8 @@ void problem_from_unit(const struct bayesopt *bo, const double *u, double *x);
 /* history.c */
 /* Done, at the dear level: a value of the objective proper. */
 bool point_counts(const struct bayesopt *bo, const struct point *point);
+/* Told, and its outcome is the point's own. */
+bool point_judged(const struct point *point);
 bool point_feasible(const struct bayesopt *bo, const struct point *point);
 /* Index of the best point: feasible with least f, else least violation; SIZE_MAX if none is done.
  */

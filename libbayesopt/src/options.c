@@ -13,7 +13,7 @@ const char *bayesopt_phase_name(bayesopt_phase phase)
 
 const char *bayesopt_state_name(bayesopt_state state)
 {
-    static const char *const names[] = {"pending", "done", "failed"};
+    static const char *const names[] = {"pending", "done", "failed", "lost"};
     return (unsigned)state < sizeof names / sizeof *names ? names[state] : "unknown";
 }
 

@@ -136,8 +136,11 @@ static bayesopt_status read_outcome(struct bayesopt *bo, sqlite3_stmt *s, struct
     free(p->constraints);
     free(p->gradient);
     free(p->note);
+    attributes_free(&p->attributes);
     p->constraints = p->gradient = NULL;
     p->note = NULL;
+    p->f = NAN;
+    p->variance = 0;
     if (sqlite3_column_type(s, NOTE) == SQLITE_TEXT) {
         p->note = malloc((size_t)sqlite3_column_bytes(s, NOTE) + 1);
         if (!p->note)
@@ -169,7 +172,7 @@ static bayesopt_status read_row(struct bayesopt *bo, sqlite3_stmt *s)
     int phase = sqlite3_column_int(s, PHASE), state = sqlite3_column_int(s, STATE);
     int level = sqlite3_column_int(s, LEVEL);
     if (id < 1 || phase < 0 || phase > BAYESOPT_PHASE_DESCENT || state < 0 ||
-        state > BAYESOPT_STATE_FAILED || level < 0 || level >= (int)bo->options.n_levels)
+        state > BAYESOPT_STATE_LOST || level < 0 || level >= (int)bo->options.n_levels)
         return damaged(bo->store, s, "id, phase, state or level is outside its range");
     struct point *p = history_find(bo, (uint64_t)id);
     if (!p) {

@@ -147,8 +147,7 @@ static struct trust trust_replay(const struct bayesopt *bo)
                       .violation = INFINITY};
     double good = good_value(bo);
     for (size_t i = 0; i < bo->n_points; i++)
-        if (bo->points[i].state != BAYESOPT_STATE_PENDING &&
-            bo->points[i].level + 1 == (int)bo->options.n_levels)
+        if (point_judged(&bo->points[i]) && bo->points[i].level + 1 == (int)bo->options.n_levels)
             trust_step(bo, &bo->points[i], good, &t);
     return t;
 }
@@ -182,7 +181,7 @@ static void keep_apart(struct bayesopt *bo, uint64_t id, double *u)
     for (int attempt = 0; attempt < 100; attempt++) {
         double nearest = INFINITY, moved[1000];
         for (size_t i = 0; i < bo->n_points; i++) {
-            double most = 0;
+            double most = bo->points[i].state == BAYESOPT_STATE_LOST ? INFINITY : 0;
             for (size_t j = 0; j < bo->d; j++)
                 most = fmax(most, fabs(bo->points[i].u[j] - u[j]));
             nearest = fmin(nearest, most);

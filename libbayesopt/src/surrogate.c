@@ -115,7 +115,7 @@ static void gather(const struct bayesopt *bo, size_t which, struct sample *sampl
         const struct point *p = &bo->points[i];
         double variance = merge ? 0 : fmax(p->variance, 1e-300);
         bool done = p->state == BAYESOPT_STATE_DONE;
-        if (which == labels && p->state != BAYESOPT_STATE_PENDING)
+        if (which == labels && point_judged(p))
             sample_add(sample, bo->d, p->u, done ? 1 : -1, 0);
         else if (which != labels && done && p->level == level)
             sample_add(sample, bo->d, p->u,

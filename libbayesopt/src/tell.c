@@ -63,7 +63,9 @@ static bayesopt_status record(struct bayesopt *bo, struct point *p, const bayeso
         ok = (p->gradient = copy_numbers(r->gradient, bo->d)) != NULL;
     if (!ok || !attributes_copy(&p->attributes, r->n_attributes, r->attributes))
         return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
-    p->state = done ? BAYESOPT_STATE_DONE : BAYESOPT_STATE_FAILED;
+    p->state = done           ? BAYESOPT_STATE_DONE
+               : r->transient ? BAYESOPT_STATE_LOST
+                              : BAYESOPT_STATE_FAILED;
     p->f = done ? r->f : NAN;
     p->variance = done ? r->variance : 0;
     bo->surrogates.fitted = false;
@@ -83,6 +85,16 @@ static void unrecord(struct point *p)
     p->variance = 0;
 }
 
+static bayesopt_status find_point(struct bayesopt *bo, uint64_t id, struct point **p)
+{
+    *p = history_find(bo, id);
+    return *p ? BAYESOPT_OK
+              : bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "no point has id %llu, the last is %llu",
+                              (unsigned long long)id,
+                              bo->n_points ? (unsigned long long)bo->points[bo->n_points - 1].id
+                                           : 0);
+}
+
 bayesopt_status bayesopt_tell_result(bayesopt *bo, uint64_t id, const bayesopt_result *result)
 {
     bayesopt_status status = check_result(bo, result);
@@ -90,11 +102,9 @@ bayesopt_status bayesopt_tell_result(bayesopt *bo, uint64_t id, const bayesopt_r
         status = store_begin(bo);
     if (status)
         return status;
-    struct point *p = history_find(bo, id);
-    if (!p)
-        status = bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "no point has id %llu, the last is %zu",
-                               (unsigned long long)id, bo->n_points);
-    else if (p->state != BAYESOPT_STATE_PENDING)
+    struct point *p = NULL;
+    status = find_point(bo, id, &p);
+    if (!status && p->state != BAYESOPT_STATE_PENDING)
         status = bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "point %llu has already been told",
                                (unsigned long long)id);
     if (!status) {
@@ -121,6 +131,37 @@ bayesopt_status bayesopt_tell_failed(bayesopt *bo, uint64_t id, const char *reas
 {
     bayesopt_result result = {.f = NAN, .note = reason ? reason : ""};
     return bayesopt_tell_result(bo, id, &result);
+}
+
+bayesopt_status bayesopt_release(bayesopt *bo, uint64_t id)
+{
+    struct point *p;
+    bayesopt_status status = store_begin(bo);
+    if (status)
+        return status;
+    status = find_point(bo, id, &p);
+    if (!status && p->state == BAYESOPT_STATE_DONE)
+        status = bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
+                               "point %llu has the value %g; only what is pending or failed can be "
+                               "asked again",
+                               (unsigned long long)id, p->f);
+    if (!status) {
+        /* The file first: should it refuse, the history stays as it is. */
+        struct point again = {.id = p->id, .phase = p->phase, .level = p->level, .x = p->x};
+        again.state = BAYESOPT_STATE_PENDING;
+        status = store_update(bo, &again);
+        if (!status)
+            status = store_commit(bo);
+    }
+    if (status) {
+        store_rollback(bo);
+        return status;
+    }
+    unrecord(p);
+    p->session = 0;
+    p->detached = false;
+    bo->surrogates.fitted = false;
+    return BAYESOPT_OK;
 }
 
 bayesopt_status bayesopt_tell_point_result(bayesopt *bo, const double *x,

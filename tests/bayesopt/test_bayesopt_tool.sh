@@ -1,35 +1,7 @@
 #!/bin/sh
 # The command bayesopt: its contracts, a run of an external command, ask and tell by hand.
 # usage: test_bayesopt_tool.sh PATH/TO/bayesopt
-set -u
-tool=$1
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
-
-fail() {
-    echo "FAILED: $*" >&2
-    failures=$((failures + 1))
-}
-
-# expect STATUS COMMAND...
-expect() {
-    wanted=$1
-    shift
-    "$@" >out 2>err
-    got=$?
-    [ "$got" -eq "$wanted" ] || fail "status $got, expected $wanted: $* ($(cat err))"
-}
-
-# number KEY: the number of the first "KEY": in the JSON of out
-number() {
-    sed -n "s/.*\"$1\": *\([-+0-9.eE]*\).*/\1/p" out | head -n 1
-}
-
-below() {
-    awk "BEGIN { exit !($1 < $2) }" || fail "$1 is not below $2: $3"
-}
+. "$(dirname "$0")/tool.sh"
 
 expect 0 "$tool" --help
 expect 0 "$tool" --version
@@ -214,5 +186,4 @@ below 0.999 "$(number occupied)" "a Latin hypercube occupies all strata"
 expect 2 "$tool" design triangular 20 3
 expect 2 "$tool" design lhs 0 3
 
-[ "$failures" -eq 0 ] && echo "all passed"
-[ "$failures" -eq 0 ]
+finish

@@ -1,7 +1,9 @@
 #include "config.h"
 
 #include "cli.h"
+#include "template.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -51,6 +53,8 @@ static const struct setting_word TRANSFORMS[] = {{"none", BAYESOPT_TRANSFORM_NON
                                                  {NULL, 0}};
 static const struct setting_word ACQUISITIONS[] = {
     {"ei", BAYESOPT_ACQUISITION_EI}, {"lcb", BAYESOPT_ACQUISITION_LCB}, {NULL, 0}};
+static const struct setting_word MATCHES[] = {
+    {"equal", RESULT_EQUAL}, {"first", RESULT_FIRST}, {"last", RESULT_LAST}, {NULL, 0}};
 static const struct setting_word BY_RULE[] = {{"by rule", 0}, {NULL, 0}};
 static const struct setting_word NEVER[] = {{"never", 0}, {NULL, 0}};
 static const struct setting_word NO_LOWER[] = {{"none", -INFINITY}, {NULL, 0}};
@@ -126,16 +130,34 @@ static const struct setting ROWS[] = {
         .sentence =
             "what to run, by /bin/sh in a folder of its own; {name} of a variable, {id} and "
             "{level} are replaced, {{ is a brace"),
+    ROW(config, "objective.template", FILE, templates, .n_least = 1, .n_most = MOST_TEMPLATES,
+        .count = offsetof(struct config, n_templates),
+        .sentence = "input files copied into the folder with the same replaced"),
+    ROW(config, "objective.file", TEXT, file,
+        .sentence = "in the folder, which the command writes the numbers to; without, they are in "
+                    "its standard output"),
     ROW(config, "objective.key", TEXT, key,
-        .sentence = "the number after it in the output counts; without, the last that ends a line"),
+        .sentence = "the number after it counts: 'key = 3', 'key [unit]: 3', '| key | 3 |', 'key "
+                    "3'; without a key the number that ends the last line"),
+    ROW(config, "objective.match", CHOICE, match, .words = MATCHES, .otherwise = "equal",
+        .sentence = "which counts of several numbers after a key; equal: a failure if they differ"),
     ROW(config, "objective.gradient", TEXT, gradient,
         .sentence = "the derivatives are the numbers after it"),
     ROW(config, "objective.folder", TEXT, folder, .otherwise = "evaluations",
-        .sentence = "parent of the working folders"),
+        .sentence = "parent of the working folders, relative to this file"),
     ROW(config, "objective.timeout", NUMBER, timeout, .most = INFINITY, .open_least = true,
         .words = NO_UPPER, .otherwise = "none", .sentence = "seconds, after which it has failed"),
+    ROW(config, "objective.transient.status", NUMBERS, transient_status, .least = 1, .most = 255,
+        .count = offsetof(struct config, n_transient_status),
+        .sentence = "exit statuses of failures that say nothing of the point (a licence, a queue)"),
+    ROW(config, "objective.transient.pattern", TEXT, transient_pattern,
+        .sentence = "the same by a regular expression found in the output or the error output"),
+    ROW(config, "objective.transient.timeout", SWITCH, transient_timeout, .otherwise = "false",
+        .sentence = "whether a timeout is one of them"),
     ROW(config, "objective.retries", COUNT, retries, .otherwise = "0",
-        .sentence = "attempts after a failed one"),
+        .sentence = "attempts after a transient failure, or after any if none is called so"),
+    ROW(config, "objective.stop_after", COUNT, stop_after, .words = NEVER, .otherwise = "5",
+        .sentence = "stop after so many equal failures in a row, give them back and say why"),
     ROW(config, "constraints", ROWS, constraints, .n_most = 1000,
         .count = offsetof(struct config, n_constraints), .table = &CONSTRAINT,
         .size = sizeof(struct config_constraint),
@@ -177,10 +199,78 @@ static const struct setting ROWS[] = {
         .most = INFINITY, .words = NEVER, .sentence = "stop when less is expected, in units of f"),
 };
 
+/* Every {word} of a text must be a variable. */
+static void check_fields(struct settings_source *source, const char *key, const char *text,
+                         size_t length, const struct names *names)
+{
+    size_t field;
+    const char *at = text ? template_unknown(text, length, names, &field) : NULL;
+    if (at)
+        settings_complain(source, key, "has '%.*s', which is no variable; '{{' stands for a brace",
+                          (int)field, at);
+}
+
+static void check_templates(struct settings_source *source, const struct config *c,
+                            const struct names *names)
+{
+    for (size_t i = 0; i < c->n_templates; i++) {
+        const char *path = c->templates[i], *slash = strrchr(path, '/');
+        const char *name = slash ? slash + 1 : path;
+        size_t length;
+        char *text = template_read(path, &length);
+        if (!text)
+            settings_complain(source, "objective.template", "is '%s': %s", path, strerror(errno));
+        check_fields(source, "objective.template", text, text ? length : 0, names);
+        if (c->file && strcmp(c->file, name) == 0)
+            settings_complain(source, "objective.file", "is '%s', which is a template's name",
+                              name);
+        if (strcmp(name, "stdout") == 0 || strcmp(name, "stderr") == 0)
+            settings_complain(source, "objective.template",
+                              "is called '%s', as the file of the output is", name);
+        free(text);
+    }
+}
+
+/* What is run and how its results are read. */
+static void check_objective(struct settings_source *source, struct config *c)
+{
+    struct names names = {c->n_variables, 0, calloc(c->n_variables + 1, sizeof(char *)), NULL};
+    for (size_t j = 0; names.variables && j < c->n_variables; j++)
+        names.variables[j] = c->variables[j].name;
+    if (names.variables) {
+        check_fields(source, "objective.command", c->command, c->command ? strlen(c->command) : 0,
+                     &names);
+        check_fields(source, "levels.cheap", c->cheap, c->cheap ? strlen(c->cheap) : 0, &names);
+        check_templates(source, c, &names);
+    }
+    free(names.variables);
+    /* Whatever lies outside of the fresh folder may be of another evaluation. */
+    if (c->file && (*c->file == '/' || strstr(c->file, "..")))
+        settings_complain(source, "objective.file",
+                          "is '%s', expected a name within the working folder", c->file);
+    for (size_t i = 0; i < c->n_transient_status; i++)
+        if (c->transient_status[i] != floor(c->transient_status[i]))
+            settings_complain(source, "objective.transient.status", "is %g, expected whole numbers",
+                              c->transient_status[i]);
+    char message[200];
+    int code = c->transient_pattern ? regcomp(&c->pattern, c->transient_pattern,
+                                              REG_EXTENDED | REG_NOSUB | REG_NEWLINE)
+                                    : 0;
+    if (code) {
+        regerror(code, &c->pattern, message, sizeof message);
+        settings_complain(source, "objective.transient.pattern",
+                          "is '%s', which is no regular expression: %s", c->transient_pattern,
+                          message);
+        free(c->transient_pattern);
+        c->transient_pattern = NULL;
+    }
+}
+
 static void check(struct settings_source *source, void *target)
 {
-    const struct config *c = target;
+    struct config *c = target;
     size_t grouped = 0;
+    check_objective(source, c);
     for (size_t j = 0; j < c->n_variables; j++) {
         grouped += c->variables[j].grouped;
         for (size_t k = 0; k < j; k++)
@@ -205,6 +295,10 @@ void config_start(struct config *c)
 
 void config_free(struct config *c)
 {
+    for (size_t i = 1; i < c->n_templates; i++)
+        free(c->templates[i]);
+    if (c->transient_pattern)
+        regfree(&c->pattern);
     settings_free(&CONFIG, c);
     free(c->names.variables);
     free(c->names.constraints);
@@ -247,19 +341,77 @@ bool config_read(const char *path, struct config *c)
     return settings_read(path, &CONFIG, c, NULL) && complete(c);
 }
 
+/* A path as the file means it: relative to its folder. */
+static char *beside(const struct config *c, const char *name)
+{
+    const char *slash = strrchr(c->path, '/');
+    size_t kept = slash && *name != '/' ? (size_t)(slash + 1 - c->path) : 0;
+    char *made = malloc(kept + strlen(name) + 1);
+    if (made)
+        strcpy((char *)memcpy(made, c->path, kept) + kept, name);
+    return made;
+}
+
 char *config_store(const struct config *c)
 {
     if (c->store_given)
         return strdup(c->store_given);
+    if (c->store)
+        return beside(c, c->store);
     const char *slash = strrchr(c->path, '/'), *name = slash ? slash + 1 : c->path;
-    const char *dot = strrchr(name, '.'), *store = c->store ? c->store : ".db";
-    size_t kept = c->store ? (*store == '/' ? 0 : (size_t)(name - c->path))
-                  : dot    ? (size_t)(dot - c->path)
-                           : strlen(c->path);
-    char *made = malloc(kept + strlen(store) + 1);
+    const char *dot = strrchr(name, '.');
+    size_t kept = dot ? (size_t)(dot - c->path) : strlen(c->path);
+    char *made = malloc(kept + sizeof ".db");
     if (made)
-        strcpy((char *)memcpy(made, c->path, kept) + kept, store);
+        strcpy((char *)memcpy(made, c->path, kept) + kept, ".db");
     return made;
+}
+
+char *config_folder(const struct config *c)
+{
+    return beside(c, c->folder);
+}
+
+bool config_knows_transient(const struct config *c)
+{
+    return c->n_transient_status || c->transient_pattern || c->transient_timeout;
+}
+
+/* The texts of all templates, one behind the other. */
+static char *join_templates(const struct config *c)
+{
+    char *joined = NULL;
+    size_t size;
+    FILE *out = open_memstream(&joined, &size);
+    bool ok = out != NULL;
+    for (size_t i = 0; i < c->n_templates && ok; i++) {
+        size_t length;
+        char *text = template_read(c->templates[i], &length);
+        ok = text != NULL || cli_refuse("%s: %s", c->templates[i], strerror(errno));
+        if (ok)
+            fputs(text, out);
+        free(text);
+    }
+    if (out && fclose(out) == 0 && ok)
+        return joined;
+    free(joined);
+    return NULL;
+}
+
+/* Whether the templates are those of the store; without, they become so. */
+static bool keep_templates(const struct config *c, bayesopt *bo)
+{
+    char *there = NULL, *here = join_templates(c);
+    bool ok = here != NULL;
+    if (ok && bayesopt_store_get_text(bo, "objective.template", &there))
+        ok = cli_refuse("%s", bayesopt_last_error());
+    else if (ok && there && strcmp(there, here) != 0)
+        ok = cli_refuse("the store is of another study: the text of objective.template differs");
+    else if (ok && !there)
+        ok = store_keep(bo, "objective.template", here);
+    free(there);
+    free(here);
+    return ok;
 }
 
 /* What says what is evaluated, in addition to the names. */
@@ -267,7 +419,8 @@ static bool keep_objective(const struct config *c, bayesopt *bo)
 {
     return names_keep(bo, &c->names) && store_keep(bo, "objective.command", c->command) &&
            store_keep(bo, "objective.key", c->key ? c->key : "") &&
-           store_keep(bo, "levels.cheap", c->cheap ? c->cheap : "");
+           store_keep(bo, "objective.file", c->file ? c->file : "") &&
+           store_keep(bo, "levels.cheap", c->cheap ? c->cheap : "") && keep_templates(c, bo);
 }
 
 bool config_create(const struct config *c, const char *store, bayesopt **bo)

@@ -3,11 +3,15 @@
 #define BAYESOPT_TOOL_CONFIG_H
 
 #include "names.h"
+#include "result.h"
 #include "settings.h"
 
 #include <bayesopt/bayesopt.h>
 
+#include <regex.h>
 #include <stdbool.h>
+
+enum { MOST_TEMPLATES = 16 };
 
 struct config_variable {
     char *name;
@@ -27,9 +31,18 @@ struct config {
     size_t n_variables;
     struct config_constraint *constraints;
     size_t n_constraints;
-    char *command, *key, *gradient, *folder, *cheap;
+    char *command, *key, *gradient, *file, *folder, *cheap;
+    char *templates[MOST_TEMPLATES];
+    size_t n_templates;
+    enum result_match match;
     double timeout; /* seconds, INFINITY: none */
+    double *transient_status;
+    size_t n_transient_status;
+    char *transient_pattern;
+    regex_t pattern; /* of transient_pattern, when that is given */
+    bool transient_timeout;
     size_t retries, workers;
+    size_t stop_after; /* equal failures, 0: never */
     bool json;
     bayesopt_options options;
     struct names names; /* borrowed from variables and constraints */
@@ -46,6 +59,10 @@ bool config_read(const char *path, struct config *config);
 void config_free(struct config *config);
 /* Where its store is; the caller frees. NULL: out of memory. */
 char *config_store(const struct config *config);
+/* Where the working folders are; the caller frees. NULL: out of memory. */
+char *config_folder(const struct config *config);
+/* Whether the file tells transient failures from permanent ones. */
+bool config_knows_transient(const struct config *config);
 /* The optimisation it describes, on the store; refuses a store of another study. */
 bool config_create(const struct config *config, const char *store, bayesopt **bo);
 

@@ -1,6 +1,8 @@
 #include "evaluate.h"
 
 #include "cli.h"
+#include "result.h"
+#include "template.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -13,51 +15,48 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* Writes the value of a template's field: a variable, the id, the level. false: unknown. */
-static bool expand(const struct config *c, const struct evaluation *e, const char *name,
-                   size_t length, FILE *out)
-{
-    if (length == 5 && strncmp(name, "level", 5) == 0)
-        return fprintf(out, "%d", e->level) > 0;
-    if (length == 2 && strncmp(name, "id", 2) == 0)
-        return fprintf(out, "%llu", (unsigned long long)e->id) > 0;
-    for (size_t j = 0; j < c->names.d; j++)
-        if (strlen(c->names.variables[j]) == length &&
-            strncmp(c->names.variables[j], name, length) == 0)
-            return fprintf(out, "%.17g", e->x[j]) > 0;
-    return false;
-}
+/* Of the program's last words in a reason. */
+enum { MOST_WORDS = 200 };
 
-/* The command with every {name} replaced; "{{" stands for a brace. NULL with a sentence on failure.
- */
-static char *fill_template(const struct config *c, const struct evaluation *e)
+static char *fill_command(const struct config *c, const struct template_values *values)
 {
+    bool cheap = c->options.n_levels == 2 && values->level == 0;
+    const char *command = cheap ? c->cheap : c->command;
     char *text = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
-    bool ok = out != NULL, cheap = c->options.n_levels == 2 && e->level == 0;
-    for (const char *p = cheap ? c->cheap : c->command; ok && *p; p++) {
-        const char *end = *p == '{' ? strchr(p, '}') : NULL;
-        if (p[0] == '{' && p[1] == '{') {
-            fputc('{', out);
-            p++;
-        } else if (end) {
-            ok = expand(c, e, p + 1, (size_t)(end - p - 1), out);
-            if (!ok)
-                cli_fail("%s: %s has '%.*s}', which is no variable", c->path,
-                         cheap ? "levels.cheap" : "objective.command", (int)(end - p), p);
-            p = end;
-        } else {
-            fputc(*p, out);
+    if (out)
+        template_write(command, strlen(command), values, out);
+    if (out && fclose(out) == 0)
+        return text;
+    free(text);
+    cli_fail("out of memory");
+    return NULL;
+}
+
+/* A folder of the evaluation's number; when there is one, of an earlier attempt or another study,
+ * the number gets a second one behind it. */
+static bool make_folder(const struct config *c, struct evaluation *e)
+{
+    char *parent = config_folder(c);
+    bool made = false, ok = parent && (mkdir(parent, 0777) == 0 || errno == EEXIST);
+    int at =
+        ok ? snprintf(e->folder, sizeof e->folder, "%s/%06llu", parent, (unsigned long long)e->id)
+           : 0;
+    size_t left = at > 0 && (size_t)at < sizeof e->folder ? sizeof e->folder - (size_t)at : 0;
+    for (unsigned k = 2; ok && !made; k++) {
+        if (left < 16) {
+            errno = ENAMETOOLONG;
+            ok = false;
+        } else if (!(made = mkdir(e->folder, 0777) == 0)) {
+            ok = errno == EEXIST && k < 1000000;
+            snprintf(e->folder + at, left, ".%u", k);
         }
     }
-    if (out && fclose(out) != 0)
-        ok = false;
-    if (!ok) {
-        free(text);
-        text = NULL;
-    }
-    return text;
+    if (!ok)
+        cli_fail("%s: %s", at ? e->folder : parent ? parent : "", strerror(errno));
+    free(parent);
+    return ok;
 }
 
 /* In the child: working folder, output files, a process group of its own to be killed as one. */
@@ -77,18 +76,11 @@ static void become(const struct evaluation *e, const char *command)
 
 bool evaluation_start(const struct config *c, struct evaluation *e)
 {
-    const char *parent = c->folder;
-    char *command = fill_template(c, e);
-    if (!command)
-        return false;
-    int length =
-        snprintf(e->folder, sizeof e->folder, "%s/%06llu", parent, (unsigned long long)e->id);
-    bool ok = length > 0 && (size_t)length < sizeof e->folder;
-    if (!ok || (mkdir(parent, 0777) != 0 && errno != EEXIST) ||
-        (mkdir(e->folder, 0777) != 0 && errno != EEXIST)) {
-        cli_fail("%s: %s", e->folder, strerror(errno));
-        ok = false;
-    }
+    const struct template_values values = {&c->names, e->x, e->id, e->level};
+    char *command = fill_command(c, &values);
+    bool ok = command && make_folder(c, e);
+    for (size_t i = 0; i < c->n_templates && ok; i++)
+        ok = template_copy(c->templates[i], e->folder, &values);
     if (ok) {
         e->timed_out = false;
         e->started = cli_seconds();
@@ -113,100 +105,98 @@ void evaluation_check_time(const struct config *c, struct evaluation *e)
     }
 }
 
-/* n numbers from the text on, brackets, quotes and separators ignored. */
-static bool read_numbers(const char *text, size_t n, double *values)
+/* A file of the evaluation's folder as a text; NULL with errno. */
+static char *read_file(const struct evaluation *e, const char *name)
 {
-    for (size_t i = 0; i < n; i++) {
-        char *end;
-        text += strspn(text, " \t\":=,[");
-        values[i] = strtod(text, &end);
-        if (end == text)
-            return false;
-        text = end;
+    size_t length;
+    char *path = malloc(strlen(e->folder) + strlen(name) + 2), *text = NULL;
+    if (path) {
+        sprintf(path, "%s/%s", e->folder, name);
+        text = template_read(path, &length);
     }
-    return true;
-}
-
-/* The last n numbers that follow the key and one of ":= ," in the output, quotes ignored, so that
- * "cw: 3e-4", "cw = 3e-4", "cw 3e-4" and {"cw": 3e-4} all serve. */
-static bool find_numbers(const char *text, const char *key, size_t n, double *values)
-{
-    bool found = false;
-    size_t length = strlen(key);
-    for (const char *p = text; (p = strstr(p, key)) != NULL; p += length) {
-        bool starts = p == text || strchr(" \t\n\",{", p[-1]);
-        const char *after = p + length;
-        if (starts && strchr(" \t\":=,", *after) && *after)
-            found = read_numbers(after, n, values) || found;
-    }
-    return found;
-}
-
-/* Without a key: the last number that ends a line. */
-static bool last_number(const char *text, double *value)
-{
-    bool found = false;
-    for (const char *line = text; *line;) {
-        size_t length = strcspn(line, "\n");
-        size_t word = length;
-        while (word > 0 && !strchr(" \t=:,", line[word - 1]))
-            word--;
-        char *end;
-        double read = strtod(line + word, &end);
-        if (end > line + word && end == line + length) {
-            *value = read;
-            found = true;
-        }
-        line += length + (line[length] == '\n');
-    }
-    return found;
-}
-
-static char *read_output(const struct evaluation *e)
-{
-    char path[600];
-    snprintf(path, sizeof path, "%s/stdout", e->folder);
-    FILE *file = fopen(path, "r");
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = file ? open_memstream(&text, &size) : NULL;
-    for (int c; out && (c = fgetc(file)) != EOF;)
-        fputc(c ? c : ' ', out);
-    if (out)
-        fclose(out);
-    if (file)
-        fclose(file);
+    for (size_t i = 0; text && i < length; i++)
+        if (!text[i])
+            text[i] = ' ';
+    free(path);
     return text;
 }
 
-bool evaluation_read(const struct config *c, const struct evaluation *e, int status, double *f,
-                     double *constraints, double *gradient, char *reason, size_t size)
+/* The program's own last words, of stderr or else of stdout, behind a reason. */
+static void add_words(struct outcome *o, const char *err, const char *out)
 {
-    const char *key = c->key;
-    if (e->timed_out)
-        snprintf(reason, size, "took longer than %g s", c->timeout);
-    else if (WIFSIGNALED(status))
-        snprintf(reason, size, "killed by signal %d", WTERMSIG(status));
-    else if (WEXITSTATUS(status) != 0)
-        snprintf(reason, size, "exit status %d", WEXITSTATUS(status));
-    else
-        reason[0] = '\0';
-    if (*reason)
-        return false;
-    char *text = read_output(e);
-    bool ok = text && (key ? find_numbers(text, key, 1, f) : last_number(text, f));
+    size_t used = strlen(o->reason), length = 0;
+    const char *line = err ? result_last_line(err, &length) : NULL;
+    if (!length && out && o->kind != OUTCOME_UNREAD)
+        line = result_last_line(out, &length);
+    if (length)
+        snprintf(o->reason + used, sizeof o->reason - used, ": %.*s",
+                 (int)(length < MOST_WORDS ? length : MOST_WORDS), line);
+}
+
+/* The numbers of a process that ended well. */
+static void read_numbers(const struct config *c, const struct evaluation *e, const char *out,
+                         struct outcome *o)
+{
+    char *file = c->file ? read_file(e, c->file) : NULL;
+    const char *text = c->file ? file : out;
+    bool ok = text != NULL;
     if (!ok)
-        snprintf(reason, size, "no number%s%s in the output", key ? " after " : "", key ? key : "");
-    for (size_t k = 0; k < c->names.m && ok; k++) {
-        ok = find_numbers(text, c->names.constraints[k], 1, &constraints[k]);
-        if (!ok)
-            snprintf(reason, size, "no number after %s in the output", c->names.constraints[k]);
+        snprintf(o->reason, sizeof o->reason, "%s: %s", c->file ? c->file : "stdout",
+                 strerror(errno));
+    ok = ok && (c->key ? result_find(text, c->key, c->match, 1, &o->f, o->reason, sizeof o->reason)
+                       : result_last(text, &o->f, o->reason, sizeof o->reason));
+    for (size_t k = 0; k < c->names.m && ok; k++)
+        ok = result_find(text, c->names.constraints[k], c->match, 1, &o->constraints[k], o->reason,
+                         sizeof o->reason);
+    if (ok && c->gradient)
+        ok = result_find(text, c->gradient, c->match, c->names.d, o->gradient, o->reason,
+                         sizeof o->reason);
+    o->kind = ok ? OUTCOME_DONE : OUTCOME_UNREAD;
+    free(file);
+}
+
+/* Whether a failure is one of those that the file calls transient. */
+static bool is_transient(const struct config *c, const struct outcome *o, const char *err,
+                         const char *out)
+{
+    if (o->kind == OUTCOME_TIMEOUT)
+        return c->transient_timeout;
+    for (size_t i = 0; i < c->n_transient_status && o->kind == OUTCOME_STATUS; i++)
+        if (o->code == (int)c->transient_status[i])
+            return true;
+    const char *texts[] = {out, err};
+    for (size_t i = 0; i < 2 && c->transient_pattern; i++)
+        if (texts[i] && regexec(&c->pattern, texts[i], 0, NULL, 0) == 0)
+            return true;
+    return false;
+}
+
+void evaluation_read(const struct config *c, const struct evaluation *e, int status,
+                     struct outcome *o)
+{
+    char *out = read_file(e, "stdout"), *err = read_file(e, "stderr");
+    o->reason[0] = '\0';
+    o->transient = false;
+    o->code = 0;
+    o->f = NAN;
+    if (e->timed_out) {
+        o->kind = OUTCOME_TIMEOUT;
+        snprintf(o->reason, sizeof o->reason, "took longer than %g s", c->timeout);
+    } else if (WIFSIGNALED(status)) {
+        o->kind = OUTCOME_SIGNAL;
+        o->code = WTERMSIG(status);
+        snprintf(o->reason, sizeof o->reason, "killed by signal %d", o->code);
+    } else if (WEXITSTATUS(status) != 0) {
+        o->kind = OUTCOME_STATUS;
+        o->code = WEXITSTATUS(status);
+        snprintf(o->reason, sizeof o->reason, "exit status %d", o->code);
+    } else {
+        read_numbers(c, e, out, o);
     }
-    const char *slope = c->gradient;
-    if (ok && slope && !find_numbers(text, slope, c->names.d, gradient)) {
-        snprintf(reason, size, "not %zu numbers after %s in the output", c->names.d, slope);
-        ok = false;
+    if (o->kind != OUTCOME_DONE) {
+        o->transient = is_transient(c, o, err, out);
+        add_words(o, err, out);
     }
-    free(text);
-    return ok;
+    free(out);
+    free(err);
 }

@@ -15,18 +15,35 @@ struct evaluation {
     double *x; /* [d], owned by the caller */
     pid_t process;
     double started;
-    size_t attempt;
+    size_t attempt; /* from 1 on */
     bool timed_out;
-    char folder[512];
+    char folder[512]; /* of this attempt alone */
 };
 
-/* Starts the command for e->id and e->x in a folder of its own, output to files there. */
+enum outcome_kind {
+    OUTCOME_DONE,
+    OUTCOME_STATUS, /* code: exit status */
+    OUTCOME_SIGNAL, /* code: its number */
+    OUTCOME_TIMEOUT,
+    OUTCOME_UNREAD, /* ended well, but a number is missing */
+};
+
+struct outcome {
+    enum outcome_kind kind;
+    int code;
+    bool transient; /* a failure that says nothing of the point */
+    double f;
+    double *constraints, *gradient; /* [m], [d], owned by the caller */
+    char reason[400];               /* of a failure, with the program's own last words */
+};
+
+/* Starts the command for e->id and e->x in a folder that did not exist before, output to files
+ * there. */
 bool evaluation_start(const struct config *config, struct evaluation *e);
 /* Kills the process group if the time is up. */
 void evaluation_check_time(const struct config *config, struct evaluation *e);
-/* What a finished process left: fills *f, constraints [m] and, if the file asks for it, gradient
- * [d], or writes the reason of the failure. */
-bool evaluation_read(const struct config *config, const struct evaluation *e, int status, double *f,
-                     double *constraints, double *gradient, char *reason, size_t size);
+/* What a finished process left. */
+void evaluation_read(const struct config *config, const struct evaluation *e, int status,
+                     struct outcome *outcome);
 
 #endif

@@ -13,6 +13,7 @@ static const char help[] =
     "  run CONFIG.yaml   minimise the result of an external command\n"
     "  ask STORE         the next points to evaluate\n"
     "  tell STORE        the result at a point\n"
+    "  release STORE ID  a pending point for somebody else\n"
     "  best STORE        the best point so far\n"
     "  status STORE      how far the run is, and its model\n"
     "  export STORE      the history as CSV or JSON\n"
@@ -29,9 +30,10 @@ static const struct {
     int (*run)(int, char **);
 } commands[] = {
     {"run", "bayesopt run", command_run},          {"ask", "bayesopt ask", command_ask},
-    {"tell", "bayesopt tell", command_tell},       {"best", "bayesopt best", command_best},
-    {"status", "bayesopt status", command_status}, {"plot", "bayesopt plot", command_plot},
-    {"design", "bayesopt design", command_design}, {"export", "bayesopt export", command_export},
+    {"tell", "bayesopt tell", command_tell},       {"release", "bayesopt release", command_release},
+    {"best", "bayesopt best", command_best},       {"status", "bayesopt status", command_status},
+    {"plot", "bayesopt plot", command_plot},       {"design", "bayesopt design", command_design},
+    {"export", "bayesopt export", command_export},
 };
 
 int main(int argc, char **argv)

@@ -5,6 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+enum { STATES = BAYESOPT_STATE_LOST + 1 };
+
 struct arguments {
     char *store, *output;
     bool json;
@@ -40,12 +42,18 @@ static int look(int argc, char **argv, const char *usage, bool writes,
 
 static json_t *point_json(const struct names *names, const bayesopt_point *p)
 {
-    return json_pack("{s:I, s:s, s:s, s:i, s:o, s:o, s:o, s:b, s:s}", "id", (json_int_t)p->id,
+    json_t *attributes = json_object();
+    for (size_t i = 0; i < p->n_attributes; i++) {
+        const bayesopt_attribute *a = &p->attributes[i];
+        json_object_set_new(attributes, a->name,
+                            a->text ? json_string(a->text) : number_json(a->number));
+    }
+    return json_pack("{s:I, s:s, s:s, s:i, s:o, s:o, s:o, s:b, s:s, s:o}", "id", (json_int_t)p->id,
                      "phase", bayesopt_phase_name(p->phase), "state", bayesopt_state_name(p->state),
                      "level", p->level, "x", named_json(names->d, names->variables, p->x), "f",
                      number_json(p->f), "constraints",
                      named_json(names->m, names->constraints, p->constraints), "feasible",
-                     p->feasible, "note", p->note);
+                     p->feasible, "note", p->note, "attributes", attributes);
 }
 
 static bool show_best(bayesopt *bo, const struct names *names, const struct arguments *a)
@@ -78,7 +86,7 @@ int command_best(int argc, char **argv)
                 false, show_best);
 }
 
-static void count_states(const bayesopt *bo, size_t counts[3])
+static void count_states(const bayesopt *bo, size_t counts[STATES])
 {
     bayesopt_point p;
     for (size_t i = 0; i < bayesopt_count(bo); i++)
@@ -107,24 +115,24 @@ static json_t *model_json(bayesopt *bo, const struct names *names)
 
 static bool show_status(bayesopt *bo, const struct names *names, const struct arguments *a)
 {
-    size_t counts[3] = {0};
+    size_t counts[STATES] = {0};
     double f = NAN;
     uint64_t id = 0;
     count_states(bo, counts);
     bool known = bayesopt_best(bo, NULL, &f, &id) >= 0;
-    json_t *root = json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:o, s:o}", "variables",
-                             (json_int_t)names->d, "done", (json_int_t)counts[BAYESOPT_STATE_DONE],
-                             "failed", (json_int_t)counts[BAYESOPT_STATE_FAILED], "pending",
-                             (json_int_t)counts[BAYESOPT_STATE_PENDING], "budget",
-                             (json_int_t)bayesopt_budget(bo), "initial",
-                             (json_int_t)bayesopt_initial_count(bo), "best", number_json(f),
-                             "model", model_json(bo, names));
+    json_t *root = json_pack(
+        "{s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:o, s:o}", "variables", (json_int_t)names->d, "done",
+        (json_int_t)counts[BAYESOPT_STATE_DONE], "failed",
+        (json_int_t)counts[BAYESOPT_STATE_FAILED], "lost", (json_int_t)counts[BAYESOPT_STATE_LOST],
+        "pending", (json_int_t)counts[BAYESOPT_STATE_PENDING], "budget",
+        (json_int_t)bayesopt_budget(bo), "initial", (json_int_t)bayesopt_initial_count(bo), "best",
+        number_json(f), "model", model_json(bo, names));
     if (a->json)
         return print_json(stdout, root);
-    printf(
-        "%zu done, %zu failed, %zu pending of %zu evaluations (%zu of them the initial design)\n",
-        counts[BAYESOPT_STATE_DONE], counts[BAYESOPT_STATE_FAILED], counts[BAYESOPT_STATE_PENDING],
-        bayesopt_budget(bo), bayesopt_initial_count(bo));
+    printf("%zu done, %zu failed, %zu lost, %zu pending of %zu evaluations (%zu of them the "
+           "initial design)\n",
+           counts[BAYESOPT_STATE_DONE], counts[BAYESOPT_STATE_FAILED], counts[BAYESOPT_STATE_LOST],
+           counts[BAYESOPT_STATE_PENDING], bayesopt_budget(bo), bayesopt_initial_count(bo));
     if (known)
         printf("best %.17g at point %llu\n", f, (unsigned long long)id);
     const json_t *model = json_object_get(root, "model");

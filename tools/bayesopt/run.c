@@ -18,53 +18,109 @@ static void interrupt(int signal_number)
     interrupted = 1;
 }
 
+/* Equal failures in a row. */
+struct streak {
+    enum outcome_kind kind;
+    int code;
+    size_t n;
+    uint64_t *ids; /* [stop_after] */
+};
+
 struct runner {
     struct config config;
     bayesopt *bo;
     struct evaluation *slots;           /* [workers] */
     double *x, *constraints, *gradient; /* [workers x d], [m], [d] */
     struct cli_progress progress;
+    struct streak streak;
+    bool works;           /* some evaluation of the study has succeeded */
     bayesopt_status stop; /* positive: nothing more to ask */
 };
 
+static bool library_failed(void)
+{
+    return cli_refuse("%s", bayesopt_last_error());
+}
+
 static bool runner_start(struct runner *r, struct evaluation *slot)
 {
-    slot->attempt = 0;
+    slot->attempt = 1;
     bayesopt_status status = bayesopt_ask_levels(r->bo, 1, slot->x, &slot->id, &slot->level);
     if (status > 0) {
         r->stop = status;
         return true;
     }
-    if (status) {
-        cli_fail("%s", bayesopt_last_error());
-        return false;
+    return status ? library_failed() : evaluation_start(&r->config, slot);
+}
+
+/* Whether a failure tells of the program or the machine rather than of the point: the shell has not
+ * found or not started it, the file calls it transient, or nothing has ever succeeded. */
+static bool is_suspicious(const struct runner *r, const struct outcome *o)
+{
+    bool not_started = o->kind == OUTCOME_STATUS && (o->code == 126 || o->code == 127);
+    return o->transient || not_started || !r->works;
+}
+
+/* Counts equal failures. When there are too many they become points to be asked again, which gives
+ * their share of the budget back. */
+static bool watch(struct runner *r, const struct evaluation *slot, const struct outcome *o)
+{
+    struct streak *s = &r->streak;
+    r->works = r->works || o->kind == OUTCOME_DONE;
+    if (o->kind == OUTCOME_DONE || !is_suspicious(r, o)) {
+        s->n = 0;
+        return true;
     }
-    return evaluation_start(&r->config, slot);
+    if (s->n && (s->kind != o->kind || s->code != o->code))
+        s->n = 0;
+    s->kind = o->kind;
+    s->code = o->code;
+    if (r->config.stop_after)
+        s->ids[s->n++] = slot->id;
+    if (!s->n || s->n < r->config.stop_after)
+        return true;
+    for (size_t i = 0; i < s->n; i++)
+        if (bayesopt_release(r->bo, s->ids[i]))
+            return library_failed();
+    return cli_refuse("%zu evaluations in a row failed alike, the last of them in %s: %s; they are "
+                      "given back, run again to go on (objective.stop_after)",
+                      s->n, slot->folder, o->reason);
+}
+
+static bool tell(struct runner *r, const struct evaluation *slot, const struct outcome *o)
+{
+    bool done = o->kind == OUTCOME_DONE;
+    const bayesopt_attribute attributes[] = {
+        {.name = "folder", .text = slot->folder},
+        {.name = "attempts", .number = (double)slot->attempt},
+    };
+    const bayesopt_result result = {
+        .f = done ? o->f : (double)NAN,
+        .constraints = done && r->config.names.m ? o->constraints : NULL,
+        .gradient = done && r->config.gradient ? o->gradient : NULL,
+        .note = done ? NULL : o->reason,
+        .transient = o->transient,
+        .n_attributes = 2,
+        .attributes = attributes,
+    };
+    return !bayesopt_tell_result(r->bo, slot->id, &result) || library_failed();
 }
 
 static bool runner_finish(struct runner *r, struct evaluation *slot, int status)
 {
-    char reason[256];
-    double f = NAN;
+    struct outcome o = {.constraints = r->constraints, .gradient = r->gradient};
+    const struct config *c = &r->config;
     slot->process = 0;
-    bool ok = evaluation_read(&r->config, slot, status, &f, r->constraints, r->gradient, reason,
-                              sizeof reason);
-    if (!ok && slot->attempt < r->config.retries && !interrupted) {
+    evaluation_read(c, slot, status, &o);
+    bool again = o.kind != OUTCOME_DONE && (o.transient || !config_knows_transient(c));
+    if (again && slot->attempt <= c->retries && !interrupted) {
         slot->attempt++;
-        return evaluation_start(&r->config, slot);
+        return evaluation_start(c, slot);
     }
-    bayesopt_result result = {
-        .f = f,
-        .constraints = r->config.names.m ? r->constraints : NULL,
-        .gradient = r->config.gradient ? r->gradient : NULL,
-    };
-    bayesopt_status told = ok ? bayesopt_tell_result(r->bo, slot->id, &result)
-                              : bayesopt_tell_failed(r->bo, slot->id, reason);
-    if (told) {
-        cli_fail("%s", bayesopt_last_error());
+    if (!tell(r, slot, &o) || !watch(r, slot, &o))
         return false;
-    }
     char detail[64] = "";
+    double f;
     if (bayesopt_best(r->bo, NULL, &f, NULL) >= 0)
         snprintf(detail, sizeof detail, "best %.6g", f);
     cli_progress_update(&r->progress,
@@ -122,6 +178,18 @@ static bool work(struct runner *r)
     return ok && !interrupted;
 }
 
+/* Says why there is nothing to report. */
+static bool refuse_without_success(const bayesopt *bo)
+{
+    bayesopt_point p;
+    for (size_t i = bayesopt_count(bo); i-- > 0;)
+        if (!bayesopt_get(bo, i, &p) && *p.note)
+            return cli_refuse("no evaluation succeeded; the last failed, in %s: %s",
+                              bayesopt_attribute_text(p.n_attributes, p.attributes, "folder"),
+                              p.note);
+    return cli_refuse("no evaluation succeeded");
+}
+
 static bool report(const struct runner *r)
 {
     const struct names *names = &r->config.names;
@@ -130,7 +198,7 @@ static bool report(const struct runner *r)
     if (!x)
         return cli_refuse("out of memory");
     bayesopt_status status = bayesopt_best(r->bo, x, &f, &id);
-    bool ok = status >= 0 || cli_refuse("no evaluation succeeded");
+    bool ok = status >= 0 || refuse_without_success(r->bo);
     if (ok && r->config.json) {
         print_json(stdout, json_pack("{s:I, s:s, s:I, s:b, s:o, s:o}", "evaluations",
                                      (json_int_t)bayesopt_count(r->bo), "stop",
@@ -153,7 +221,8 @@ static bool run(struct runner *r, const char *store)
     struct sigaction action = {.sa_handler = interrupt};
     r->slots = calloc(workers, sizeof *r->slots);
     r->x = malloc((workers * d + r->config.names.m + d) * sizeof *r->x);
-    if (!r->slots || !r->x || !store)
+    r->streak.ids = calloc(r->config.stop_after + 1, sizeof *r->streak.ids);
+    if (!r->slots || !r->x || !r->streak.ids || !store)
         return cli_refuse("out of memory");
     r->constraints = r->x + workers * d;
     r->gradient = r->constraints + r->config.names.m;
@@ -161,6 +230,7 @@ static bool run(struct runner *r, const char *store)
         r->slots[i].x = r->x + i * d;
     if (!config_create(&r->config, store, &r->bo))
         return false;
+    r->works = bayesopt_best(r->bo, NULL, NULL, NULL) >= 0;
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
     return work(r) && report(r);
@@ -199,7 +269,7 @@ int command_run(int argc, char **argv)
         "Minimises what an external command prints. Run again, it continues from its store; a run\n"
         "that was killed loses nothing but the evaluations then under way, which are repeated.\n"
         "A failed evaluation (exit status, signal, timeout, no number) is recorded and learnt\n"
-        "from.\n"
+        "from, unless the file calls it transient.\n"
         "\n"
         "  variables:\n"
         "    - {name: x, lower: 0, upper: 1}\n"
@@ -219,6 +289,7 @@ int command_run(int argc, char **argv)
     bayesopt_free(r.bo);
     free(usage);
     free(r.slots);
+    free(r.streak.ids);
     free(r.x);
     config_free(&r.config);
     return code;

@@ -1,12 +1,14 @@
-/* tell: results of evaluations, one from the arguments or many from a table. */
+/* tell: results of evaluations, one from the arguments or many from a table. release: points to be
+ * asked again. */
 #include "commands.h"
 #include "names.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 struct arguments {
-    char *store, *failed, *table;
+    char *store, *failed, *retry, *table;
     double *constraints, *point;
     size_t n_constraints, n_point, n_words;
     bool json;
@@ -18,6 +20,8 @@ static const struct setting ROWS[] = {
     OPTION("constraints", NUMBERS, constraints, .count = offsetof(struct arguments, n_constraints),
            .sentence = "values of the outcome constraints"),
     OPTION("failed", TEXT, failed, .sentence = "the evaluation failed, for this reason"),
+    OPTION("retry", TEXT, retry,
+           .sentence = "id of a failed point to be asked again, its failure forgotten"),
     OPTION("point", NUMBERS, point, .count = offsetof(struct arguments, n_point),
            .sentence = "variables of an evaluation made elsewhere"),
     OPTION("table", TEXT, table,
@@ -31,12 +35,19 @@ static const struct settings TABLE = {
     .usage =
         "usage: bayesopt tell STORE ID VALUE [--constraints A,B,...]\n"
         "       bayesopt tell STORE ID --failed REASON\n"
+        "       bayesopt tell STORE --retry ID\n"
         "       bayesopt tell STORE VALUE --point X1,X2,... [--constraints A,B,...]\n"
         "       bayesopt tell STORE --table FILE.csv\n"
         "\n"
-        "Records the result at an asked point, that its evaluation failed, an evaluation made\n"
-        "elsewhere, or a table of results. VALUE is a number; nan and inf count as "
-        "failures.\n\n"};
+        "Records the result at an asked point, that its evaluation failed, that a failed one is\n"
+        "to be repeated, an evaluation made elsewhere, or a table of results. VALUE is a number;\n"
+        "nan and inf count as failures.\n\n"};
+static const struct settings RELEASE = {
+    1, ROWS,
+    .usage = "usage: bayesopt release STORE ID\n"
+             "\n"
+             "Gives up a pending point: the next 'bayesopt ask' or 'run' gives it out again,\n"
+             "whoever had it.\n\n"};
 
 static bool parse_value(const char *text, double *value)
 {
@@ -105,13 +116,22 @@ static bool tell_table(bayesopt *bo, const struct names *names, const char *path
     return ok;
 }
 
+static bool release(bayesopt *bo, const char *word)
+{
+    size_t id;
+    return parse_id(word, &id) &&
+           (!bayesopt_release(bo, id) || cli_refuse("%s", bayesopt_last_error()));
+}
+
 static bool tell(const struct arguments *a)
 {
     bayesopt *bo;
     struct names names;
     if (!store_open_to_write(a->store, &bo, &names))
         return false;
-    bool ok = a->table ? tell_table(bo, &names, a->table) : tell_one(bo, &names, a);
+    bool ok = a->retry   ? release(bo, a->retry)
+              : a->table ? tell_table(bo, &names, a->table)
+                         : tell_one(bo, &names, a);
     if (ok && a->json)
         print_json(stdout, json_pack("{s:I}", "evaluations", (json_int_t)bayesopt_count(bo)));
     names_free(&names);
@@ -119,20 +139,45 @@ static bool tell(const struct arguments *a)
     return ok;
 }
 
-int command_tell(int argc, char **argv)
+static int with_words(int argc, char **argv, const struct settings *table,
+                      int (*command)(struct arguments *a))
 {
     struct arguments a = {.words = calloc((size_t)argc, sizeof *a.words)};
     if (!a.words)
         return cli_fail("out of memory");
     settings_start(&TABLE, &a);
-    int code = settings_options(argc, argv, &TABLE, &a, &a.n_words, a.words);
-    size_t expected = a.table ? 0 : a.failed || a.point ? 1 : 2;
-    if (code < 0 && a.n_words != expected)
-        code = cli_usage("%zu words after STORE, expected %zu: what was evaluated", a.n_words,
-                         expected);
+    int code = settings_options(argc, argv, table, &a, &a.n_words, a.words);
     if (code < 0)
-        code = tell(&a) ? CLI_OK : CLI_FAILED;
+        code = command(&a);
     settings_free(&TABLE, &a);
     free(a.words);
     return code;
+}
+
+static int run_tell(struct arguments *a)
+{
+    size_t expected = a->table || a->retry ? 0 : a->failed || a->point ? 1 : 2;
+    if (a->n_words != expected)
+        return cli_usage("%zu words after STORE, expected %zu: what was evaluated", a->n_words,
+                         expected);
+    return tell(a) ? CLI_OK : CLI_FAILED;
+}
+
+static int run_release(struct arguments *a)
+{
+    size_t id;
+    if (a->n_words != 1 || !cli_parse_size(a->words[0], &id))
+        return cli_usage("expected STORE and the id of a point");
+    a->retry = strdup(a->words[0]);
+    return a->retry && tell(a) ? CLI_OK : CLI_FAILED;
+}
+
+int command_tell(int argc, char **argv)
+{
+    return with_words(argc, argv, &TABLE, run_tell);
+}
+
+int command_release(int argc, char **argv)
+{
+    return with_words(argc, argv, &RELEASE, run_release);
 }

@@ -54,6 +54,7 @@ typedef enum bayesopt_state {
     BAYESOPT_STATE_PENDING, /**< asked, not told */
     BAYESOPT_STATE_DONE,    /**< told with a finite value */
     BAYESOPT_STATE_FAILED,  /**< told as failed, or with a value that is not finite */
+    BAYESOPT_STATE_LOST,    /**< told as failed for a reason that is not the point's; not learnt */
 } bayesopt_state;
 
 /** Which proposals follow the initial design. */
@@ -208,6 +209,8 @@ typedef struct bayesopt_result {
         *gradient;    /**< [d] df/dx borrowed; NULL if not known. The best 400/d points' are used */
     double variance;  /**< of f, with BAYESOPT_NOISE_KNOWN; else 0 */
     const char *note; /**< copied into the history; NULL for none */
+    bool transient; /**< a failure that says nothing of the point (a licence, a full disk): nothing
+                         is learnt from it */
     size_t n_attributes;                  /**< default 0 */
     const bayesopt_attribute *attributes; /**< [n_attributes] copied, kept with the value or the
                                              failure and written in the same transaction */
@@ -230,6 +233,13 @@ BAYESOPT_API bayesopt_status bayesopt_tell_result(bayesopt *bo, uint64_t id,
 /** The evaluation at an asked point failed; @p reason is copied, NULL allowed. The neighbourhood is
  * learnt to be risky; the value of the objective there stays unknown. */
 BAYESOPT_API bayesopt_status bayesopt_tell_failed(bayesopt *bo, uint64_t id, const char *reason);
+
+/**
+ * Makes a point to be asked again, before new ones: a pending one, whoever holds it, or a failed or
+ * lost one, whose failure is forgotten and no longer counts.
+ * @return BAYESOPT_ERROR_ARGUMENT if the id is unknown or the point has a value
+ */
+BAYESOPT_API bayesopt_status bayesopt_release(bayesopt *bo, uint64_t id);
 
 /**
  * An evaluation made elsewhere (a parent design, an earlier study). It counts against the budget
