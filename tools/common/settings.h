@@ -53,6 +53,16 @@ struct setting {
     const char *sentence;         /* what it means, with its unit */
 };
 
+/* Rows for short: .key, .type, .offset and .sentence, then what else there is. */
+#define SETTING_ROW(part, name, kind, member, meaning, ...)                                        \
+    {                                                                                              \
+        .key = (name), .type = SETTING_##kind, .offset = offsetof(part, member),                   \
+        .sentence = (meaning), __VA_ARGS__                                                         \
+    }
+#define SETTING_FROM(a, b)   .least = (a), .most = (b)
+#define SETTING_INSIDE(a, b) SETTING_FROM(a, b), .open_least = true, .open_most = true
+#define SETTING_ABOVE(a)     SETTING_FROM(a, INFINITY), .open_least = true
+
 struct settings_source;
 
 struct settings {
@@ -80,8 +90,9 @@ bool settings_read(const char *path, const struct settings *table, void *target,
 int settings_options(int argc, char **argv, const struct settings *table, void *target,
                      size_t *n_words, char **words);
 
-/* From a check: KEY (of a row, relative to the mapping that is checked) is wrong, "is ..., expected
- * ...". The line is that of KEY in the file or, when it is not given, of its mapping. */
+/* From a check: KEY (of a row, relative to the mapping that is checked; "": that one) is wrong, "is
+ * ..., expected ...". The line is that of KEY in the file or, when it is not given, of its mapping.
+ */
 __attribute__((format(printf, 3, 4))) void
 settings_complain(struct settings_source *source, const char *key, const char *format, ...);
 /* Line of a key of a file, "objective.command"; 0 when it is not there. */

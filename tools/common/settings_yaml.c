@@ -300,7 +300,8 @@ void settings_complain(struct settings_source *source, const char *key, const ch
     }
     size_t line = line_of(source->node);
     find(source, source->node, key, &line);
-    settings_add(source, line, "%s%s%s %s", source->prefix, *source->prefix ? "." : "", key, text);
+    settings_add(source, line, "%s%s%s%s%s", source->prefix, *source->prefix && *key ? "." : "",
+                 key, *key || *source->prefix ? " " : "", text);
 }
 
 bool settings_read(const char *path, const struct settings *table, void *target, char **sentences)

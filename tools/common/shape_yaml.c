@@ -1,311 +1,250 @@
 #include "shape_yaml.h"
 
 #include "cli.h"
-#include "yaml_file.h"
+#include "settings.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+static const size_t MOST_PARAMETERS = 1000000;
+
+/* A function of the file, or what all have that give nothing of their own. */
 struct function_text {
-    char **order, **phase, **bounds;
-    unsigned order_count, phase_count, bounds_count;
-    char *direction;
-};
-
-struct box_text {
-    char **origin, **length;
-    unsigned origin_count, length_count;
-};
-
-struct lattice_text {
-    char **count, **degree, **first, **last, **directions;
-    unsigned count_count, degree_count, first_count, last_count, directions_count;
+    double order[3], phase[3], bounds[2];
+    int direction;
+    bool has_phase, has_bounds, has_direction;
 };
 
 struct shape_text {
-    char *combination, *direction;
-    char **phase, **bounds, **orders;
-    unsigned phase_count, bounds_count, orders_count;
-    struct box_text box;
+    size_t npoints;
+    const double *xyz;
+    int combination;
+    struct function_text all;
+    double origin[3], length[3]; /* NAN: auto */
     struct function_text *functions;
-    unsigned functions_count;
-    struct lattice_text *lattice;
+    size_t n_functions;
+    size_t orders[3], n_orders;
+    size_t count[3], degree[3], first[3], last[3];
+    size_t n_count, n_degree, n_first, n_last; /* 3, or 0 where it is not given */
+    int directions[3];
+    size_t n_directions;
 };
 
-static const cyaml_schema_value_t number = {
-    CYAML_VALUE_STRING(CYAML_FLAG_POINTER, char *, 1, CYAML_UNLIMITED),
+static const struct setting_word AUTO[] = {{"auto", NAN}, {NULL, 0}};
+static const struct setting_word AXES[] = {{"x", 0}, {"y", 1}, {"z", 2}, {NULL, 0}};
+static const struct setting_word COMBINATIONS[] = {
+    {"recursive", GALV_COMBINATION_RECURSIVE}, {"linear", GALV_COMBINATION_LINEAR}, {NULL, 0}};
+
+#define FUNCTION(...)       SETTING_ROW(struct function_text, __VA_ARGS__)
+#define SHAPE(...)          SETTING_ROW(struct shape_text, __VA_ARGS__)
+#define ALL(n)              .n_least = (n), .n_most = (n)
+#define GIVEN(part, member) .given = offsetof(struct part, member)
+#define COUNTED(member)     .count = offsetof(struct shape_text, member)
+
+static const struct setting FUNCTION_ROWS[] = {
+    FUNCTION("order", NUMBER, order, "half-waves along x, y and z", ALL(3), .required = true),
+    FUNCTION("phase", NUMBER, phase, "radians", ALL(3), GIVEN(function_text, has_phase)),
+    FUNCTION("bounds", NUMBER, bounds, "of its parameter, m", ALL(2),
+             GIVEN(function_text, has_bounds)),
+    FUNCTION("direction", CHOICE, direction, "in which points move", .words = AXES,
+             GIVEN(function_text, has_direction)),
 };
 
-#define NUMBERS(name, part, count, flags)                                                          \
-    CYAML_FIELD_SEQUENCE(#name, CYAML_FLAG_POINTER | (flags), struct part, name, &number, count,   \
-                         count)
-#define WORD(name, part)                                                                           \
-    CYAML_FIELD_STRING_PTR(#name, CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL, struct part, name, 1,  \
-                           CYAML_UNLIMITED)
-
-static const cyaml_schema_field_t function_fields[] = {
-    NUMBERS(order, function_text, 3, CYAML_FLAG_DEFAULT),
-    NUMBERS(phase, function_text, 3, CYAML_FLAG_OPTIONAL),
-    NUMBERS(bounds, function_text, 2, CYAML_FLAG_OPTIONAL),
-    WORD(direction, function_text),
-    CYAML_FIELD_END,
-};
-
-static const cyaml_schema_value_t function_entry = {
-    CYAML_VALUE_MAPPING(CYAML_FLAG_DEFAULT, struct function_text, function_fields),
-};
-
-static const cyaml_schema_field_t box_fields[] = {
-    NUMBERS(origin, box_text, 3, CYAML_FLAG_OPTIONAL),
-    NUMBERS(length, box_text, 3, CYAML_FLAG_OPTIONAL),
-    CYAML_FIELD_END,
-};
-
-static const cyaml_schema_field_t lattice_fields[] = {
-    NUMBERS(count, lattice_text, 3, CYAML_FLAG_DEFAULT),
-    NUMBERS(degree, lattice_text, 3, CYAML_FLAG_OPTIONAL),
-    NUMBERS(first, lattice_text, 3, CYAML_FLAG_DEFAULT),
-    NUMBERS(last, lattice_text, 3, CYAML_FLAG_DEFAULT),
-    CYAML_FIELD_SEQUENCE("directions", CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL,
-                         struct lattice_text, directions, &number, 1, 3),
-    CYAML_FIELD_END,
-};
-
-static const cyaml_schema_field_t shape_fields[] = {
-    WORD(combination, shape_text),
-    WORD(direction, shape_text),
-    NUMBERS(phase, shape_text, 3, CYAML_FLAG_OPTIONAL),
-    NUMBERS(bounds, shape_text, 2, CYAML_FLAG_OPTIONAL),
-    NUMBERS(orders, shape_text, 3, CYAML_FLAG_OPTIONAL),
-    CYAML_FIELD_MAPPING("box", CYAML_FLAG_OPTIONAL, struct shape_text, box, box_fields),
-    CYAML_FIELD_SEQUENCE("functions", CYAML_FLAG_POINTER | CYAML_FLAG_OPTIONAL, struct shape_text,
-                         functions, &function_entry, 1, CYAML_UNLIMITED),
-    CYAML_FIELD_MAPPING_PTR("lattice", CYAML_FLAG_POINTER_NULL | CYAML_FLAG_OPTIONAL,
-                            struct shape_text, lattice, lattice_fields),
-    CYAML_FIELD_END,
-};
-
-static const cyaml_schema_value_t schema = {
-    CYAML_VALUE_MAPPING(CYAML_FLAG_POINTER, struct shape_text, shape_fields),
-};
-
-static bool read_numbers(const char *path, const char *field, char *const *text, unsigned count,
-                         double *out)
+static void check_bounds(struct settings_source *source, void *target)
 {
-    for (unsigned i = 0; i < count; i++)
-        if (!cli_parse_double(text[i], &out[i])) {
-            cli_yaml_fail(path, field, "holds '%s', expected a number", text[i]);
-            return false;
-        }
-    return true;
+    const struct function_text *f = target;
+    if (f->has_bounds && !(f->bounds[0] <= f->bounds[1]))
+        settings_complain(source, "bounds", "are %g and %g, expected in order", f->bounds[0],
+                          f->bounds[1]);
 }
 
-static bool read_direction(const char *path, const char *field, const char *text, int *out)
-{
-    const char *axis = strlen(text) == 1 ? strchr("xyz", *text) : NULL;
-    if (!axis) {
-        cli_yaml_fail(path, field, "is '%s', expected x, y or z", text);
-        return false;
-    }
-    *out = (int)(axis - "xyz");
-    return true;
-}
+static const struct settings FUNCTION_TABLE = {4, FUNCTION_ROWS, .check = check_bounds};
 
-static bool read_combination(const char *path, const char *text, galv_combination *out)
-{
-    *out = GALV_COMBINATION_RECURSIVE;
-    if (!text || strcmp(text, "recursive") == 0)
-        return true;
-    *out = GALV_COMBINATION_LINEAR;
-    if (strcmp(text, "linear") == 0)
-        return true;
-    cli_yaml_fail(path, "combination", "is '%s', expected recursive or linear", text);
-    return false;
-}
+static const struct setting ROWS[] = {
+    SHAPE("combination", CHOICE, combination, "whether a function sees what those before it moved",
+          .words = COMBINATIONS, .otherwise = "recursive"),
+    SHAPE("direction", CHOICE, all.direction, "in which points move", .words = AXES,
+          .otherwise = "y"),
+    SHAPE("phase", NUMBER, all.phase, "radians", ALL(3), .otherwise = "0,0,0"),
+    SHAPE("bounds", NUMBER, all.bounds, "of every parameter, m", ALL(2),
+          GIVEN(shape_text, all.has_bounds)),
+    SHAPE("box.origin", NUMBER, origin, "m; auto: least coordinate of the points", ALL(3),
+          .words = AUTO, .otherwise = "auto"),
+    SHAPE("box.length", NUMBER, length, "m; auto: extent of the points", ALL(3), .words = AUTO,
+          .otherwise = "auto", SETTING_ABOVE(0)),
+    SHAPE("functions", ROWS, functions, "sine products", COUNTED(n_functions), .n_least = 1,
+          .n_most = 100000, .table = &FUNCTION_TABLE, .size = sizeof(struct function_text)),
+    SHAPE("orders", COUNT, orders, "all sine products of 1 to so many half-waves", ALL(3),
+          COUNTED(n_orders), SETTING_FROM(1, 50)),
+    SHAPE("lattice.count", COUNT, count, "control points along x, y and z", ALL(3),
+          COUNTED(n_count), SETTING_FROM(2, 1000)),
+    SHAPE("lattice.degree", COUNT, degree, "of the B-splines", ALL(3), COUNTED(n_degree),
+          SETTING_FROM(1, 999)),
+    SHAPE("lattice.first", COUNT, first, "moved control points, from 0", ALL(3), COUNTED(n_first)),
+    SHAPE("lattice.last", COUNT, last, "the last of them", ALL(3), COUNTED(n_last)),
+    SHAPE("lattice.directions", CHOICE, directions, "in which they move", .n_least = 1, .n_most = 3,
+          .words = AXES, COUNTED(n_directions), .otherwise = "y"),
+};
 
-/* "auto" is the least coordinate of the points for the origin, their extent for the length. */
-static bool read_box(const char *path, const struct box_text *text, size_t npoints,
-                     const double *xyz, galv_box *box)
+static bool has_lattice(const struct shape_text *t)
 {
-    for (size_t j = 0; j < 3; j++) {
-        double least = INFINITY, greatest = -INFINITY;
-        for (size_t p = 0; p < npoints; p++) {
-            least = fmin(least, xyz[3 * p + j]);
-            greatest = fmax(greatest, xyz[3 * p + j]);
-        }
-        box->origin[j] = least;
-        box->length[j] = greatest - least;
-        if (text->origin && strcmp(text->origin[j], "auto") != 0 &&
-            !read_numbers(path, "box.origin", &text->origin[j], 1, &box->origin[j]))
-            return false;
-        if (text->length && strcmp(text->length[j], "auto") != 0 &&
-            !read_numbers(path, "box.length", &text->length[j], 1, &box->length[j]))
-            return false;
-    }
-    return true;
-}
-
-/* The fields of one function override those given for all. */
-static bool read_function(const char *path, size_t i, const struct function_text *text,
-                          const struct shape_text *all, galv_sine *function, double bounds[2])
-{
-    char field[64];
-    snprintf(field, sizeof field, "functions.%zu", i);
-    *function = (galv_sine){.direction = 1};
-    char *const *phase = text->phase ? text->phase : all->phase;
-    char *const *limits = text->bounds ? text->bounds : all->bounds;
-    const char *direction = text->direction ? text->direction : all->direction;
-    if (!limits) {
-        cli_yaml_fail(path, all->orders ? "orders" : field,
-                      "has no bounds, and none are given for all functions");
-        return false;
-    }
-    return (!text->order || read_numbers(path, field, text->order, 3, function->order)) &&
-           (!phase ||
-            read_numbers(path, text->phase ? field : "phase", phase, 3, function->phase)) &&
-           read_numbers(path, text->bounds ? field : "bounds", limits, 2, bounds) &&
-           (!direction || read_direction(path, text->direction ? field : "direction", direction,
-                                         &function->direction));
-}
-
-static bool interpret_functions(const char *path, const struct shape_text *text,
-                                struct shape_definition *definition)
-{
-    if (!shape_definition_allocate(SHAPE_SINES, text->functions_count, definition)) {
-        cli_fail("out of memory");
-        return false;
-    }
-    bool ok = read_combination(path, text->combination, &definition->combination);
-    for (size_t i = 0; ok && i < definition->n; i++) {
-        double bounds[2];
-        ok = read_function(path, i, &text->functions[i], text, &definition->functions[i], bounds);
-        if (ok) {
-            definition->lower[i] = bounds[0];
-            definition->upper[i] = bounds[1];
-        }
-    }
-    return ok;
-}
-
-static bool read_indices(const char *path, const char *field, char *const *text, size_t out[3])
-{
-    for (int j = 0; j < 3; j++)
-        if (!cli_parse_size(text[j], &out[j])) {
-            cli_yaml_fail(path, field, "holds '%s', expected a whole number", text[j]);
-            return false;
-        }
-    return true;
-}
-
-/* Every triple of half-waves from 1 to the number given for its axis, the last axis fastest. */
-static bool interpret_orders(const char *path, const struct shape_text *text,
-                             struct shape_definition *definition)
-{
-    static const struct function_text plain;
-    size_t most[3], count, n = 0;
-    if (!read_indices(path, "orders", text->orders, most))
-        return false;
-    for (int j = 0; j < 3; j++)
-        if (most[j] < 1 || most[j] > 50) {
-            cli_yaml_fail(path, "orders", "holds %zu, expected whole numbers from 1 to 50",
-                          most[j]);
-            return false;
-        }
-    count = most[0] * most[1] * most[2];
-    if (!shape_definition_allocate(SHAPE_SINES, count, definition)) {
-        cli_fail("out of memory");
-        return false;
-    }
-    for (; n < count; n++) {
-        double bounds[2];
-        galv_sine *function = &definition->functions[n];
-        if (!read_function(path, n, &plain, text, function, bounds))
-            return false;
-        function->order[0] = (double)(1 + n / (most[1] * most[2]));
-        function->order[1] = (double)(1 + n / most[2] % most[1]);
-        function->order[2] = (double)(1 + n % most[2]);
-        definition->lower[n] = bounds[0];
-        definition->upper[n] = bounds[1];
-    }
-    return read_combination(path, text->combination, &definition->combination);
+    return t->n_count + t->n_degree + t->n_first + t->n_last > 0;
 }
 
 /* The moved control points are those from `first` to `last`, both included, counted from 0. */
-static bool read_lattice(const char *path, const struct lattice_text *text, size_t count[3],
-                         size_t degree[3], size_t first[3], size_t last[3])
+static void check_lattice(struct settings_source *source, struct shape_text *t)
 {
-    if (!read_indices(path, "lattice.count", text->count, count) ||
-        !read_indices(path, "lattice.first", text->first, first) ||
-        !read_indices(path, "lattice.last", text->last, last) ||
-        (text->degree && !read_indices(path, "lattice.degree", text->degree, degree)))
-        return false;
-    for (int j = 0; j < 3; j++) {
-        if (!text->degree)
-            degree[j] = count[j] ? count[j] - 1 : 0;
-        if (first[j] > last[j] || last[j] >= count[j] || count[j] > 1000 || degree[j] > 1000) {
-            cli_yaml_fail(path, "lattice.last",
-                          "along %c: moved points %zu to %zu of %zu (0 is the first)", "xyz"[j],
-                          first[j], last[j], count[j]);
-            return false;
-        }
+    if (!t->n_count || !t->n_first || !t->n_last) {
+        settings_complain(source,
+                          !t->n_count   ? "lattice.count"
+                          : !t->n_first ? "lattice.first"
+                                        : "lattice.last",
+                          "is missing");
+        return;
     }
-    return true;
+    size_t moved = t->n_directions;
+    for (int j = 0; j < 3; j++) {
+        if (t->first[j] > t->last[j] || t->last[j] >= t->count[j])
+            settings_complain(source, "lattice.last",
+                              "along %c: moved points %zu to %zu of %zu (0 is the first)", "xyz"[j],
+                              t -> first[j], t -> last[j], t -> count[j]);
+        else
+            moved *= t->last[j] - t->first[j] + 1;
+        if (!t->n_degree)
+            t->degree[j] = t->count[j] - 1;
+    }
+    if (moved > MOST_PARAMETERS)
+        settings_complain(source, "lattice", "moves %zu coordinates, expected at most %zu", moved,
+                          MOST_PARAMETERS);
 }
 
-static bool interpret_lattice(const char *path, const struct shape_text *text,
-                              struct shape_definition *definition)
+/* A box that has nothing to do with the points is in other units than they are: modes would be
+ * found all the same. */
+static void check_box(struct settings_source *source, struct shape_text *t)
 {
-    const struct lattice_text *lattice = text->lattice;
-    size_t count[3], degree[3] = {0, 0, 0}, first[3], last[3], n = 0;
-    unsigned axes = lattice->directions ? lattice->directions_count : 1;
-    int axis[3] = {1, 1, 1};
-    double bounds[2];
-    if (!text->bounds) {
-        cli_yaml_fail(path, "lattice", "has no bounds beside it");
-        return false;
+    galv_box around;
+    if (galv_box_around(t->npoints, t->xyz, &around)) {
+        settings_complain(source, "box", "cannot be laid around the hull: %s", galv_last_error());
+        return;
     }
-    if (!read_lattice(path, lattice, count, degree, first, last) ||
-        !read_numbers(path, "bounds", text->bounds, 2, bounds))
-        return false;
-    for (unsigned a = 0; lattice->directions && a < axes; a++)
-        if (!read_direction(path, "lattice.directions", lattice->directions[a], &axis[a]))
-            return false;
-    size_t points = (last[0] - first[0] + 1) * (last[1] - first[1] + 1) * (last[2] - first[2] + 1);
-    if (!shape_definition_allocate(SHAPE_LATTICE, points * axes, definition)) {
-        cli_fail("out of memory");
-        return false;
+    bool apart = false, small = true, large = true;
+    for (int j = 0; j < 3; j++) {
+        if (isnan(t->origin[j]))
+            t->origin[j] = around.origin[j];
+        if (isnan(t->length[j]))
+            t->length[j] = around.length[j];
+        apart = apart || t->origin[j] >= around.origin[j] + around.length[j] ||
+                t->origin[j] + t->length[j] <= around.origin[j];
+        small = small && t->length[j] < 0.1 * around.length[j];
+        large = large && t->length[j] > 2.5 * around.length[j];
     }
-    for (size_t i = first[0]; i <= last[0]; i++)
-        for (size_t j = first[1]; j <= last[1]; j++)
-            for (size_t k = first[2]; k <= last[2]; k++)
-                for (unsigned a = 0; a < axes; a++) {
-                    definition->lower[n] = bounds[0];
-                    definition->upper[n] = bounds[1];
-                    definition->moves[n++] = (galv_lattice_move){{i, j, k}, axis[a]};
+    if (apart || small || large)
+        settings_complain(source, "box",
+                          "from (%g, %g, %g) of %g x %g x %g %s the hull's, from (%g, %g, %g) of "
+                          "%g x %g x %g: are both in metres?",
+                          t->origin[0], t->origin[1], t->origin[2], t->length[0], t->length[1],
+                          t->length[2],
+                          apart   ? "lies beside"
+                          : small ? "is far smaller than"
+                                  : "is far larger than",
+                          around.origin[0], around.origin[1], around.origin[2], around.length[0],
+                          around.length[1], around.length[2]);
+}
+
+static void check_shape(struct settings_source *source, void *target)
+{
+    struct shape_text *t = target;
+    size_t kinds = (size_t)(t->n_functions > 0) + (t->n_orders > 0) + has_lattice(t);
+    if (kinds != 1)
+        settings_complain(source, "", "has %zu of functions, orders and lattice, expected one",
+                          kinds);
+    for (size_t i = 0; i < t->n_functions; i++)
+        if (!t->functions[i].has_bounds && !t->all.has_bounds)
+            settings_complain(source, "functions",
+                              "has no bounds in entry %zu, and none are given for all", i + 1);
+    if (!t->n_functions && !t->all.has_bounds)
+        settings_complain(source, "bounds", "is missing");
+    check_bounds(source, &t->all);
+    if (has_lattice(t))
+        check_lattice(source, t);
+    check_box(source, t);
+}
+
+static const struct settings SHAPE_TABLE = {sizeof ROWS / sizeof *ROWS, ROWS, .check = check_shape};
+
+/* The fields of one function override those given for all. */
+static void put_function(const struct shape_text *t, const struct function_text *f,
+                         const double order[3], size_t i, struct shape_definition *definition)
+{
+    const double *bounds = f->has_bounds ? f->bounds : t->all.bounds;
+    galv_sine *sine = &definition->functions[i];
+    *sine = (galv_sine){.direction = f->has_direction ? f->direction : t->all.direction};
+    memcpy(sine->order, order, sizeof sine->order);
+    memcpy(sine->phase, f->has_phase ? f->phase : t->all.phase, sizeof sine->phase);
+    definition->lower[i] = bounds[0];
+    definition->upper[i] = bounds[1];
+}
+
+static void put_sines(const struct shape_text *t, struct shape_definition *definition)
+{
+    const size_t *most = t->orders;
+    definition->combination = (galv_combination)t->combination;
+    for (size_t i = 0; i < t->n_functions; i++)
+        put_function(t, &t->functions[i], t->functions[i].order, i, definition);
+    /* Every triple of half-waves from 1 on, the last axis fastest. */
+    for (size_t i = 0; t->n_orders && i < definition->n; i++)
+        put_function(t, &t->all,
+                     (double[]){(double)(1 + i / (most[1] * most[2])),
+                                (double)(1 + i / most[2] % most[1]), (double)(1 + i % most[2])},
+                     i, definition);
+}
+
+static void put_lattice(const struct shape_text *t, struct shape_definition *definition)
+{
+    size_t n = 0;
+    for (size_t i = t->first[0]; i <= t->last[0]; i++)
+        for (size_t j = t->first[1]; j <= t->last[1]; j++)
+            for (size_t k = t->first[2]; k <= t->last[2]; k++)
+                for (size_t a = 0; a < t->n_directions; a++) {
+                    definition->lower[n] = t->all.bounds[0];
+                    definition->upper[n] = t->all.bounds[1];
+                    definition->moves[n++] = (galv_lattice_move){{i, j, k}, t->directions[a]};
                 }
     for (int j = 0; j < 3; j++) {
-        definition->count[j] = count[j];
-        definition->degree[j] = (int)degree[j];
+        definition->count[j] = t->count[j];
+        definition->degree[j] = (int)t->degree[j];
     }
+}
+
+static bool put_shape(const struct shape_text *t, struct shape_definition *definition)
+{
+    size_t n = t->n_orders ? t->orders[0] * t->orders[1] * t->orders[2] : t->n_functions;
+    bool lattice = has_lattice(t);
+    if (lattice) {
+        n = t->n_directions;
+        for (int j = 0; j < 3; j++)
+            n *= t->last[j] - t->first[j] + 1;
+    }
+    if (!shape_definition_allocate(lattice ? SHAPE_LATTICE : SHAPE_SINES, n, definition))
+        return cli_refuse("out of memory");
+    if (lattice)
+        put_lattice(t, definition);
+    else
+        put_sines(t, definition);
+    memcpy(definition->box.origin, t->origin, sizeof t->origin);
+    memcpy(definition->box.length, t->length, sizeof t->length);
     return true;
 }
 
-static bool interpret(const char *path, const struct shape_text *text, size_t npoints,
-                      const double *xyz, struct shape_definition *definition)
+bool shape_definition_read(const char *path, size_t npoints, const double *xyz,
+                           struct shape_definition *definition)
 {
+    struct shape_text text = {.npoints = npoints, .xyz = xyz};
     *definition = (struct shape_definition){.n = 0};
-    if ((text->functions != NULL) + (text->orders != NULL) + (text->lattice != NULL) != 1) {
-        cli_fail("%s: expected one of functions, orders or a lattice", path);
-        return false;
-    }
-    bool ok = text->functions ? interpret_functions(path, text, definition)
-              : text->orders  ? interpret_orders(path, text, definition)
-                              : interpret_lattice(path, text, definition);
-    ok = ok && read_box(path, &text->box, npoints, xyz, &definition->box);
-    if (!ok)
-        shape_definition_free(definition);
+    settings_start(&SHAPE_TABLE, &text);
+    bool ok = settings_read(path, &SHAPE_TABLE, &text, NULL) && put_shape(&text, definition);
+    settings_free(&SHAPE_TABLE, &text);
     return ok;
 }
 
@@ -329,17 +268,6 @@ void shape_definition_free(struct shape_definition *definition)
     free(definition->lower);
     free(definition->upper);
     *definition = (struct shape_definition){.n = 0};
-}
-
-bool shape_definition_read(const char *path, size_t npoints, const double *xyz,
-                           struct shape_definition *definition)
-{
-    void *data;
-    if (!cli_yaml_load(path, &schema, &data))
-        return false;
-    bool ok = interpret(path, data, npoints, xyz, definition);
-    cli_yaml_free(&schema, data);
-    return ok;
 }
 
 galv_status shape_definition_create(const struct shape_definition *definition, galv_shape **shape)
