@@ -136,6 +136,89 @@ static void rebuilds_from_its_design_grid(void)
     nurbs_patches_free(patches);
 }
 
+/* A bulge of the side that no power of x and z follows; its amplitude is linear in a. */
+static void bulge(const nurbs_grid *from, double a, nurbs_grid *to)
+{
+    size_t n = nurbs_grid_rows(from) * nurbs_grid_columns(from);
+    const double *p = nurbs_grid_points(from);
+    double *q = nurbs_grid_edit(to);
+    for (size_t k = 0; k < n; k++)
+        q[3 * k + 1] =
+            p[3 * k + 1] * (1 + a * sin(4 * pi * p[3 * k] / L) * cos(pi * p[3 * k + 2] / T));
+}
+
+/* The largest second difference of the control points of three designs a - h, a, a + h, over h^2;
+ * infinite if they are on different knots. */
+static double second_difference(const nurbs_hull *parent, const nurbs_grid *grid, double h)
+{
+    nurbs_hull *hull[3] = {NULL, NULL, NULL};
+    nurbs_grid *moved = NULL;
+    double worst = 0;
+    CU_ASSERT_EQUAL_FATAL(
+        nurbs_hull_design_grid(parent, nurbs_grid_rows(grid), nurbs_grid_columns(grid), &moved),
+        NURBS_OK);
+    const double *p[3];
+    size_t n[3];
+    for (int i = 0; i < 3; i++) {
+        bulge(grid, 0.03 + (i - 1) * h, moved);
+        CU_ASSERT_EQUAL_FATAL(nurbs_hull_rebuild(parent, moved, &hull[i]), NURBS_OK);
+        const nurbs_surface *light = nurbs_patches_get(nurbs_hull_light(hull[i]), 0);
+        p[i] = nurbs_surface_points(light);
+        n[i] = nurbs_surface_size(light, 0) * nurbs_surface_size(light, 1);
+    }
+    if (n[0] != n[1] || n[1] != n[2])
+        worst = INFINITY;
+    for (size_t k = 0; k < 3 * n[0] && worst < INFINITY; k++)
+        worst = fmax(worst, fabs(p[0][k] - 2 * p[1][k] + p[2][k]) / (h * h));
+    for (int i = 0; i < 3; i++)
+        nurbs_hull_free(hull[i]);
+    nurbs_grid_free(moved);
+    return worst;
+}
+
+static void rebuilds_smoothly_in_a_shared_space(void)
+{
+    nurbs_patches *patches = raised_wigley(0.1);
+    nurbs_hull *parent = NULL, *hull = NULL;
+    nurbs_grid *grid = NULL, *extreme[2] = {NULL, NULL};
+    CU_ASSERT_EQUAL_FATAL(nurbs_hull_create(patches, NULL, &parent), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_hull_design_grid(parent, 31, 12, &grid), NURBS_OK);
+    for (int i = 0; i < 2; i++) {
+        CU_ASSERT_EQUAL_FATAL(nurbs_hull_design_grid(parent, 31, 12, &extreme[i]), NURBS_OK);
+        bulge(grid, i ? 0.1 : -0.1, extreme[i]);
+    }
+    const nurbs_grid *const designs[2] = {extreme[0], extreme[1]};
+    CU_ASSERT_EQUAL_FATAL(nurbs_hull_share_space(parent, grid, 2, designs), NURBS_OK);
+    for (int i = 0; i < 2; i++) {
+        CU_ASSERT_EQUAL_FATAL(nurbs_hull_rebuild(parent, designs[i], &hull), NURBS_OK);
+        CU_ASSERT(nurbs_hull_shares_space(hull));
+        CU_ASSERT(nurbs_hull_bound(hull) <= 1e-4 * L);
+        nurbs_hull_free(hull);
+    }
+    /* Smooth: the same second derivative from steps a hundred times apart, but for rounding. */
+    double wide = second_difference(parent, grid, 1e-2),
+           narrow = second_difference(parent, grid, 1e-4);
+    CU_ASSERT(wide < 1);
+    CU_ASSERT(narrow < 1);
+    /* Twenty times the bulge is not in the space: the design takes its own knots and says so. */
+    bulge(grid, 0.9, extreme[0]);
+    nurbs_grid_edit(extreme[0])[3 * (12 * 15 + 6) + 1] *= 1.2;
+    CU_ASSERT_EQUAL_FATAL(nurbs_hull_rebuild(parent, extreme[0], &hull), NURBS_OK);
+    CU_ASSERT(!nurbs_hull_shares_space(hull));
+    CU_ASSERT(nurbs_hull_bound(hull) <= 1e-4 * L);
+    CU_ASSERT_PTR_NOT_NULL_FATAL(nurbs_hull_step(hull, 0));
+    CU_ASSERT_PTR_NOT_NULL(strstr(nurbs_hull_step(hull, 0), "knots of its own"));
+    nurbs_hull_free(hull);
+    nurbs_grid_free(extreme[0]);
+    nurbs_grid_free(extreme[1]);
+    CU_ASSERT_EQUAL_FATAL(nurbs_hull_design_grid(parent, 21, 12, &extreme[0]), NURBS_OK);
+    CU_ASSERT_EQUAL(nurbs_hull_rebuild(parent, extreme[0], &hull), NURBS_ERROR_ARGUMENT);
+    nurbs_grid_free(extreme[0]);
+    nurbs_grid_free(grid);
+    nurbs_hull_free(parent);
+    nurbs_patches_free(patches);
+}
+
 static void keeps_the_design_grid_of_its_file(void)
 {
     struct hull5415 shipped;
@@ -182,6 +265,7 @@ static const struct check_case cases[] = {
     {"sinkage and trim place the hull", sinkage_and_trim_place_the_hull},
     {"whole body counts each side once", whole_body_counts_each_side_once},
     {"rebuilds from its design grid", rebuilds_from_its_design_grid},
+    {"rebuilds smoothly in a shared space", rebuilds_smoothly_in_a_shared_space},
     {"keeps the design grid of its file", keeps_the_design_grid_of_its_file},
     {"refuses with the file and the reason", refuses_with_the_file_and_the_reason},
 };

@@ -53,6 +53,9 @@ typedef struct nurbs_skin_options {
     const size_t *chine; /**< borrowed: their indices from 0, increasing, not the first or last
                               column; sections that turn there by more than kink_angle (by anything
                               if that is <= 0) keep the kink, others pass smoothly; NULL */
+    const double *u, *v; /**< borrowed: parameters of rows and of columns, increasing, instead of
+                            parametrize; with those of another grid the surface is linear in the
+                            points while the kinks are the same; NULL */
 } nurbs_skin_options;
 
 NURBS_API void nurbs_skin_options_init(nurbs_skin_options *options);

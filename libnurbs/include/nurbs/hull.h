@@ -72,6 +72,17 @@ NURBS_API nurbs_status nurbs_hull_design_grid(const nurbs_hull *hull, size_t row
 NURBS_API nurbs_status nurbs_hull_rebuild(const nurbs_hull *parent, const nurbs_grid *grid,
                                           nurbs_hull **hull);
 
+/** Gives the hulls that are rebuilt from this parent one spline space, so that they depend smoothly
+ * on the points of the grid: the parameters of the parent's grid, the knots of a removal at 0.3
+ * of the tolerance, and those that the n designs (extremes of the family; those that cannot be
+ * built are passed over) need to be held within it. A design outside of what the space holds takes
+ * knots of its own as without a shared space, which nurbs_hull_step() tells.
+ * @param grid  the parent's own design grid: nurbs_hull_design_grid() */
+NURBS_API nurbs_status nurbs_hull_share_space(nurbs_hull *parent, const nurbs_grid *grid, size_t n,
+                                              const nurbs_grid *const *designs);
+/** Whether a rebuilt hull lies in the shared space. */
+NURBS_API bool nurbs_hull_shares_space(const nurbs_hull *hull);
+
 /** Surfaces, borrowed. Full: as they were read and placed, above and below the water. Wetted: the
  * part below. Light: the same with redundant knots removed, what a solver takes. Of a rebuilt hull
  * the full surface is the skinned one. */

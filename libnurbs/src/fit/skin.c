@@ -253,13 +253,29 @@ static nurbs_status build_surface(int degree, skin *work, nurbs_surface **surfac
     return status;
 }
 
+/* The parameters of `lines` lines of n points, or those given. */
+static nurbs_status take_parameters(const nurbs_skin_options *options, const double *given,
+                                    size_t lines, size_t n, size_t line_step, size_t step,
+                                    const double *points, double *t)
+{
+    if (!given)
+        return nurbs_parametrize_lines(options->parametrize, lines, n, line_step, step, points, t);
+    for (size_t k = 0; k < n; k++)
+        if (!isfinite(given[k]) || (k > 0 && !(given[k] > given[k - 1])))
+            return nurbs_fail(NURBS_ERROR_ARGUMENT,
+                              "parameter %zu of a skin is %g, expected increasing numbers", k + 1,
+                              given[k]);
+    memcpy(t, given, n * sizeof *t);
+    return NURBS_OK;
+}
+
 static nurbs_status parameters(const nurbs_skin_options *options, skin *work)
 {
-    nurbs_status status = nurbs_parametrize_lines(options->parametrize, work->columns, work->rows,
-                                                  1, work->columns, work->points, work->u);
+    nurbs_status status = take_parameters(options, options->u, work->columns, work->rows, 1,
+                                          work->columns, work->points, work->u);
     if (status == NURBS_OK)
-        status = nurbs_parametrize_lines(options->parametrize, work->rows, work->columns,
-                                         work->columns, 1, work->points, work->v);
+        status = take_parameters(options, options->v, work->rows, work->columns, work->columns, 1,
+                                 work->points, work->v);
     return status;
 }
 

@@ -1,18 +1,10 @@
-/* The design grid of a hull, and the hull through a moved grid. */
+/* The design grid of a hull. */
 #include "core/error.h"
 #include "hull/hull.h"
-
-#include <nurbs/fit.h>
-#include <nurbs/section.h>
-#include <nurbs/simplify.h>
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* The cut at the waterline is this much finer than the simplification, so that it never matters. */
-static const double cut_share = 0.1;
-static const double default_tolerance = 1e-4; /* of the length */
 
 static double greville(int degree, const double *knots, size_t i)
 {
@@ -104,71 +96,4 @@ nurbs_status nurbs_hull_design_grid(const nurbs_hull *hull, size_t rows, size_t 
         status = nurbs_grid_sample(nurbs_patches_get(hull->full, 0), n[0], u, n[1], u + n[0], grid);
     free(u);
     return status;
-}
-
-static nurbs_status add_to(nurbs_patches **patches, const nurbs_surface *surface)
-{
-    nurbs_status status = nurbs_patches_create(patches);
-    return status ? status : nurbs_patches_add(*patches, surface);
-}
-
-/* The sentence begins with the stage. */
-static nurbs_status stage(nurbs_status status, const char *name)
-{
-    return status ? nurbs_fail_in(status, name) : NURBS_OK;
-}
-
-static nurbs_status build(nurbs_hull *hull, const nurbs_grid *grid)
-{
-    nurbs_surface *full = NULL, *wetted = NULL, *light = NULL;
-    double share = isnan(hull->options.simplify) ? default_tolerance : hull->options.simplify;
-    double distance = share * hull->length;
-    nurbs_status status = stage(nurbs_skin(grid, NULL, &full), "skin");
-    if (!status)
-        status = add_to(&hull->full, full);
-    if (!status)
-        status = stage(nurbs_surface_wetted(full, 0, cut_share * distance, &wetted), "waterline");
-    if (!status)
-        status = add_to(&hull->wetted, wetted);
-    if (!status)
-        status = stage(nurbs_surface_simplify(wetted, distance,
-                                              NURBS_SIMPLIFY_KEEP_EDGES | NURBS_SIMPLIFY_THRIFTY,
-                                              &light, &hull->bound),
-                       "simplify");
-    if (!status)
-        status = add_to(&hull->light, light);
-    if (!status)
-        status = stage(hull_hydrostatics(hull->wetted, true, &hull->hydrostatics), "hydrostatics");
-    if (!status)
-        status = hull_tell(hull, "cut at z = 0 m, %zu of %zu control points after simplification",
-                           nurbs_surface_size(light, 0) * nurbs_surface_size(light, 1),
-                           nurbs_surface_size(full, 0) * nurbs_surface_size(full, 1));
-    nurbs_surface_free(full);
-    nurbs_surface_free(wetted);
-    nurbs_surface_free(light);
-    return status;
-}
-
-nurbs_status nurbs_hull_rebuild(const nurbs_hull *parent, const nurbs_grid *grid, nurbs_hull **hull)
-{
-    if (!parent || !grid || !hull)
-        return nurbs_fail(NURBS_ERROR_ARGUMENT, "parent, grid or hull is NULL");
-    *hull = NULL;
-    nurbs_hull *result = calloc(1, sizeof *result);
-    if (!result)
-        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for a hull");
-    *result = (nurbs_hull){.options = parent->options,
-                           .extent = parent->extent,
-                           .length = parent->length,
-                           .lpp = parent->lpp,
-                           .half = true,
-                           .cut = true,
-                           .waterline = true};
-    nurbs_status status = build(result, grid);
-    if (status) {
-        nurbs_hull_free(result);
-        return status;
-    }
-    *hull = result;
-    return NURBS_OK;
 }

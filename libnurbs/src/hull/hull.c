@@ -1,4 +1,5 @@
 #include "hull/hull.h"
+#include "hull/space.h"
 
 #include "core/error.h"
 
@@ -179,6 +180,7 @@ void nurbs_hull_free(nurbs_hull *hull)
         nurbs_patches_free(hull->light);
     nurbs_patches_free(hull->wetted);
     nurbs_patches_free(hull->full);
+    hull_space_free(hull->space);
     free(hull->step);
     free(hull);
 }

@@ -15,7 +15,8 @@ struct nurbs_hull {
     nurbs_patches *light; /* may be `wetted` itself */
     double extent;        /* of the file in x, m */
     double level, length, lpp, bound;
-    bool half, cut, waterline;
+    bool half, cut, waterline, shares_space;
+    struct hull_space *space; /* of the hulls rebuilt from this one; NULL: none */
     nurbs_hydrostatics hydrostatics;
     size_t steps;
     char (*step)[HULL_STEP_SIZE];
