@@ -16,16 +16,22 @@ void bayesopt_design_options_init(bayesopt_design_options *options)
 static bayesopt_status check(bayesopt_design_kind kind, size_t n, size_t d,
                              const bayesopt_design_options *o)
 {
-    if (!n || !d || n > 1000000 || d > 1000)
-        return bayesopt_fail(
-            BAYESOPT_ERROR_ARGUMENT,
-            "design of %zu points in %zu variables: expected 1 to 1000000 and 1 to 1000", n, d);
+    if (!n || !d || n > BAYESOPT_MOST_POINTS || d > BAYESOPT_MOST_VARIABLES)
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
+                             "design of %zu points in %zu variables: expected 1 to %d and 1 to %d",
+                             n, d, BAYESOPT_MOST_POINTS, BAYESOPT_MOST_VARIABLES);
     if ((unsigned)kind > BAYESOPT_DESIGN_STLBO)
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "design kind %d is not known", (int)kind);
     if (!(o->power > 0) || !(o->latin_weight >= 0))
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
                              "design: power %g, Latin weight %g: expected positive, not negative",
                              o->power, o->latin_weight);
+    if (o->n_constraints > BAYESOPT_MOST_CONSTRAINTS || o->n_existing > BAYESOPT_MOST_POINTS)
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
+                             "design: %zu constraints and %zu existing points, expected at most %d "
+                             "and %d",
+                             o->n_constraints, o->n_existing, BAYESOPT_MOST_CONSTRAINTS,
+                             BAYESOPT_MOST_POINTS);
     if (o->n_constraints && !o->constraint)
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "design: %zu constraints without a function",
                              o->n_constraints);

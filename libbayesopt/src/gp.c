@@ -42,8 +42,9 @@ void bayesopt_gp_options_init(bayesopt_gp_options *options)
 
 static bayesopt_status check_options(size_t d, const bayesopt_gp_options *o)
 {
-    if (d < 1 || d > 1000)
-        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "gp: %zu variables, expected 1 to 1000", d);
+    if (d < 1 || d > BAYESOPT_MOST_VARIABLES)
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "gp: %zu variables, expected 1 to %d", d,
+                             BAYESOPT_MOST_VARIABLES);
     if ((unsigned)o->kernel > BAYESOPT_KERNEL_MATERN52 ||
         (unsigned)o->scales > BAYESOPT_SCALES_AUTO || (unsigned)o->mean > BAYESOPT_MEAN_LINEAR ||
         (unsigned)o->noise > BAYESOPT_NOISE_LEARNED ||
@@ -228,7 +229,7 @@ void gp_scale_inputs(struct bayesopt_gp *gp, const double *lengthscale)
 
 void gp_covariance(const struct bayesopt_gp *gp, double signal, double *k, double *w)
 {
-    double point[1000];
+    double point[BAYESOPT_MOST_VARIABLES];
     for (size_t i = 0; i < gp->n; i++) {
         for (size_t j = 0; j < gp->d; j++)
             point[j] = gp->scaled[j * gp->capacity + i];
@@ -360,7 +361,7 @@ bool gp_likelihood_gradient(const struct bayesopt_gp *gp, const struct gp_theta 
                             struct gp_scratch *scratch, bool need_w, double *gradient)
 {
     size_t n = gp->n, d = gp->d, ld = gp->capacity;
-    double point[1000], fit = 0, trace = 0, residual = 0;
+    double point[BAYESOPT_MOST_VARIABLES], fit = 0, trace = 0, residual = 0;
     if (need_w)
         gp_covariance(gp, theta->signal, scratch->inverse, scratch->w);
     if (!matrix_inverse(n, gp->factor, ld, scratch->inverse))
@@ -435,7 +436,7 @@ bayesopt_status bayesopt_gp_set_parameters(bayesopt_gp *gp,
 static bool append_row(bayesopt_gp *gp, size_t i)
 {
     size_t ld = gp->capacity;
-    double *row = gp->factor + i * ld, point[1000];
+    double *row = gp->factor + i * ld, point[BAYESOPT_MOST_VARIABLES];
     for (size_t j = 0; j < gp->d; j++)
         point[j] = gp->scaled[j * ld + i] = gp->x[i * gp->d + j] / gp->lengthscale[j];
     kernel_distances(i, gp->d, gp->scaled, ld, point, row);

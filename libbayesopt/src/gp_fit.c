@@ -26,7 +26,7 @@ struct noise_prior {
 static const struct noise_prior learned_noise = {-4, 2, 1e-8, 0.5};
 static const struct noise_prior guard_noise = {-25, 2, 1e-12, 1e-6};
 
-enum { MOST_PARAMETERS = 1002 };
+enum { MOST_PARAMETERS = BAYESOPT_MOST_VARIABLES + 2 };
 
 /* Of the log posterior. */
 static const double tolerance = 1e-3;

@@ -204,7 +204,8 @@ static bayesopt_status read_all(FILE *file, bayesopt_gp **out)
     bayesopt_gp_options options;
     bayesopt_gp *gp = NULL;
     if (!get(file, "bayesopt-gp", 1, head) || head[0] != 1 || !get(file, "head", 8, head) ||
-        !whole(head[0], 1000) || !whole(head[1], 1e6) || !read_options(file, head, &options))
+        !whole(head[0], BAYESOPT_MOST_VARIABLES) || !whole(head[1], BAYESOPT_MOST_POINTS) ||
+        !read_options(file, head, &options))
         return BAYESOPT_ERROR_FORMAT;
     /* Groups come later in the file; until they are read every variable is its own. */
     bayesopt_scales scales = options.scales;

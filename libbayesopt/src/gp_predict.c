@@ -40,7 +40,7 @@ static void predict_block(const bayesopt_gp *gp, size_t m, const double *x, doub
                           double *var, double *k, double *columns, double *rest)
 {
     size_t n = gp->n, d = gp->d, p = gp->p;
-    double point[1000], r[1001];
+    double point[BAYESOPT_MOST_VARIABLES], r[BAYESOPT_MOST_VARIABLES + 1];
     for (size_t c = 0; c < m; c++) {
         mean[c] = prior_mean(gp, x + c * d);
         for (size_t j = 0; j < d; j++)
@@ -100,7 +100,7 @@ bayesopt_status bayesopt_gp_predict_gradient(const bayesopt_gp *gp, const double
     if (status)
         return status;
     size_t n = gp->n, d = gp->d, p = gp->p, ld = gp->capacity;
-    double *k = work, *w = work + n, point[1000], r[1001];
+    double *k = work, *w = work + n, point[BAYESOPT_MOST_VARIABLES], r[BAYESOPT_MOST_VARIABLES + 1];
     for (size_t j = 0; j < d; j++)
         point[j] = x[j] / gp->lengthscale[j];
     kernel_distances(n, d, gp->scaled, ld, point, k);

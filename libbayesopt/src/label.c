@@ -17,7 +17,7 @@ bayesopt_status label_fit(size_t n, size_t d, const double *x, const double *lab
      * has them, would else make every point an island. */
     static const double candidates[] = {0.2, 0.3, 0.45, 0.7, 1};
     bayesopt_gp_options options;
-    double scales[1000], most = -INFINITY;
+    double scales[BAYESOPT_MOST_VARIABLES], most = -INFINITY;
     bayesopt_gp_options_init(&options);
     options.kernel = BAYESOPT_KERNEL_MATERN32;
     options.mean = BAYESOPT_MEAN_FIXED;

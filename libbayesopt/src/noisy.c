@@ -162,7 +162,7 @@ double noisy_log_ei(struct noisy *noisy, const double *x, double *gradient, doub
 {
     bayesopt_gp *gp = noisy->exact;
     size_t n = noisy->n, d = noisy->d;
-    double value[DRAWS], by_mean[DRAWS], by_sd[DRAWS], point[1000], mean, var;
+    double value[DRAWS], by_mean[DRAWS], by_sd[DRAWS], point[BAYESOPT_MOST_VARIABLES], mean, var;
     double constant = prior_mean(noisy, x), most = -INFINITY, total = 0;
     /* The variance is the same for all draws, the mean is linear in alpha. */
     if (bayesopt_gp_predict(gp, 1, x, &mean, &var))

@@ -45,8 +45,11 @@ void bayesopt_options_init(bayesopt_options *options)
 
 static bayesopt_status check_box(size_t d, const double *lower, const double *upper)
 {
-    if (d < 1 || d > 1000)
-        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "%zu variables, expected 1 to 1000", d);
+    if (d < 1 || d > BAYESOPT_MOST_VARIABLES)
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "%zu variables, expected 1 to %d", d,
+                             BAYESOPT_MOST_VARIABLES);
+    if (!lower || !upper)
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "%s is NULL", lower ? "upper" : "lower");
     for (size_t j = 0; j < d; j++)
         if (!isfinite(lower[j]) || !isfinite(upper[j]) || !(lower[j] < upper[j]) ||
             !isfinite(upper[j] - lower[j]))
@@ -77,12 +80,32 @@ static bayesopt_status check_enumerations(const bayesopt_options *o)
     return BAYESOPT_OK;
 }
 
+static bayesopt_status check_sizes(const bayesopt_options *o)
+{
+    const struct {
+        const char *name;
+        size_t n, most;
+    } sizes[] = {
+        {"initial_n", o->initial_n, BAYESOPT_MOST_POINTS},
+        {"n_constraints", o->n_constraints, BAYESOPT_MOST_CONSTRAINTS},
+        {"n_input_constraints", o->n_input_constraints, BAYESOPT_MOST_CONSTRAINTS},
+        {"n_linear", o->n_linear, BAYESOPT_MOST_CONSTRAINTS},
+    };
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
+        if (sizes[i].n > sizes[i].most)
+            return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "%s is %zu, expected at most %zu",
+                                 sizes[i].name, sizes[i].n, sizes[i].most);
+    return BAYESOPT_OK;
+}
+
 bayesopt_status options_check(size_t d, const double *lower, const double *upper,
                               const bayesopt_options *o)
 {
     bayesopt_status status = check_box(d, lower, upper);
     if (!status)
         status = check_enumerations(o);
+    if (!status)
+        status = check_sizes(o);
     if (status)
         return status;
     if (o->initial_x && !o->initial_n)

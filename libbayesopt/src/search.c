@@ -250,7 +250,7 @@ static bayesopt_status ascend(struct climber *c, const double *u)
 {
     struct bayesopt *bo = c->bo;
     size_t d = bo->d, m = bo->region.m;
-    double at[1000], value;
+    double at[BAYESOPT_MOST_VARIABLES], value;
     struct broyden broyden = {.bo = bo};
     double *tolerances = NULL;
     nlopt_opt opt = nlopt_create(m ? NLOPT_LD_SLSQP : NLOPT_LD_LBFGS, (unsigned)d);

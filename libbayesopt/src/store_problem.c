@@ -184,7 +184,7 @@ static bayesopt_status create_from_fields(const struct field *f, double budget,
     bayesopt_options_init(&o);
     o.group = f[GROUP].n ? group : NULL;
     o.seed = ((uint64_t)first(&f[SEED]) << 32) | (uint64_t)f[SEED].values[1];
-    o.max_evaluations = (size_t)budget;
+    o.max_evaluations = budget < 0x1p53 ? (size_t)budget : SIZE_MAX;
     o.initial_kind = (bayesopt_design_kind)first(&f[INITIAL_KIND]);
     o.initial_n = (size_t)first(&f[INITIAL_N]);
     o.initial_x = f[INITIAL_X].n ? f[INITIAL_X].values : NULL;

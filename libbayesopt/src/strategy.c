@@ -161,7 +161,7 @@ double strategy_trust_length(const struct bayesopt *bo)
 static void trust_box(const struct bayesopt *bo, double length, const double *centre, double *lower,
                       double *upper)
 {
-    double scales[1000], logs = 0;
+    double scales[BAYESOPT_MOST_VARIABLES], logs = 0;
     bayesopt_gp_parameters parameters = {.lengthscale = scales};
     bayesopt_gp_get_parameters(bo->surrogates.gps[0], &parameters);
     for (size_t j = 0; j < bo->d; j++)
@@ -179,7 +179,7 @@ static void keep_apart(struct bayesopt *bo, uint64_t id, double *u)
     struct random_stream stream;
     random_start(&stream, bo->options.seed, STREAM_STRATEGY, id);
     for (int attempt = 0; attempt < 100; attempt++) {
-        double nearest = INFINITY, moved[1000];
+        double nearest = INFINITY, moved[BAYESOPT_MOST_VARIABLES];
         for (size_t i = 0; i < bo->n_points; i++) {
             double most = bo->points[i].state == BAYESOPT_STATE_LOST ? INFINITY : 0;
             for (size_t j = 0; j < bo->d; j++)
@@ -311,7 +311,7 @@ static bool fit_quadratic(const struct bayesopt *bo, const double *centre, struc
 bayesopt_status strategy_propose(struct bayesopt *bo, uint64_t id, double *u, bayesopt_phase *phase,
                                  int *level)
 {
-    double lower[1000], upper[1000], value;
+    double lower[BAYESOPT_MOST_VARIABLES], upper[BAYESOPT_MOST_VARIABLES], value;
     struct quadratic quadratic = {0};
     size_t done = 0;
     for (size_t i = 0; i < bo->n_points; i++)

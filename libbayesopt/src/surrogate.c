@@ -387,7 +387,8 @@ bayesopt_status surrogates_predict_gradient(const struct bayesopt *bo, const dou
         bayesopt_gp_predict_gradient(s->gps[0], x, mean, var, dmean, dvar, work);
     if (status || !s->cheap)
         return status;
-    double low, low_var, factor = cheap_factor(s), dlow[1000], dlow_var[1000];
+    double low, low_var, factor = cheap_factor(s), dlow[BAYESOPT_MOST_VARIABLES],
+                         dlow_var[BAYESOPT_MOST_VARIABLES];
     status = bayesopt_gp_predict_gradient(s->cheap, x, &low, &low_var, dlow, dlow_var, work);
     *mean += cheap_offset(s) + factor * low;
     *var += factor * factor * low_var;

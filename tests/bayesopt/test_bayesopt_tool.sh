@@ -60,13 +60,24 @@ YAML
 expect 0 "$tool" run study.yaml
 sed 's/name: beam/name: depth/; s/{beam}/{depth}/' study.yaml >other.yaml
 expect 1 "$tool" run other.yaml
-grep -q "variable.1 is 'beam' there, 'depth' here" err || fail "renamed variable: $(cat err)"
+says "study.db is of another study: variable 1 is 'beam' there, 'depth' here"
+sed 's/name: beam/name: tmp/; s/name: draft/name: beam/; s/name: tmp/name: draft/' study.yaml >other.yaml
+expect 1 "$tool" run other.yaml
+says "variable 1 is 'beam' there, 'draft' here"
 sed 's/echo {beam}/echo {draft}/' study.yaml >other.yaml
 expect 1 "$tool" run other.yaml
 grep -q "objective.command is 'echo {beam}' there" err || fail "another command: $(cat err)"
 sed 's/draft, lower: 0, upper: 1/draft, lower: 0, upper: 2/' study.yaml >other.yaml
 expect 1 "$tool" run other.yaml
-grep -q "another problem: 'upper'" err || fail "other bounds: $(cat err)"
+says "variable 'draft' goes from 0 to 1 there, from 0 to 2 here"
+sed '/draft/d' study.yaml >other.yaml
+expect 1 "$tool" run other.yaml
+says 'it has 2 variables, here are 1'
+sed 's/evaluations: 5, initial: 4/evaluations: 9, initial: 5/' study.yaml >other.yaml
+expect 1 "$tool" run other.yaml
+says "another problem: 'initial_n'"
+expect 0 "$tool" status study.db --json
+[ "$(number budget)" = 5 ] || fail "a refused study changed the store: $(cat out)"
 sed 's/evaluations: 5/evaluations: 7/' study.yaml >other.yaml
 expect 0 "$tool" run other.yaml --json
 [ "$(number evaluations)" = 7 ] || fail "the same study did not go on: $(cat out)"
@@ -160,6 +171,26 @@ mkdir -p elsewhere && sed 's/name: beam/name: beam2/; s/{beam}/{beam2}/' study.y
 expect 0 "$tool" run elsewhere/study.yaml
 [ -s elsewhere/study.db ] || fail "the store is not beside its file"
 
+# Names that would be mistaken for something else.
+cat >names.yaml <<'YAML'
+variables:
+  - {name: level, lower: 0, upper: 1}
+  - {name: state, lower: 0, upper: 1}
+  - {name: "a,b", lower: 0, upper: 1}
+  - {name: c, lower: 0, upper: 1}
+objective: {command: "echo {c}"}
+constraints: [{name: c, upper: 1}]
+YAML
+expect 1 "$tool" run names.yaml
+for sentence in "variables.1.name is 'level', which stands for" "variables.2.name is 'state'" \
+    "variables.3.name is 'a,b', expected a name without"; do
+    says "$sentence"
+done
+[ ! -e names.db ] || fail "a store was made of a file with mistakes"
+sed -i '2,4d' names.yaml
+expect 1 "$tool" run names.yaml
+says "constraints has one called 'c', as a variable is"
+
 # By hand: ask and tell from processes of their own.
 expect 0 "$tool" ask hand.db --lower -1,0 --upper 1,2 --initial 4 --budget 7 -n 3
 [ "$(wc -l <out)" -eq 4 ] || fail "asked for 3 points: $(cat out)"
@@ -174,6 +205,27 @@ expect 0 "$tool" tell hand.db --table table.csv --json
 expect 0 "$tool" ask hand.db --json
 expect 0 "$tool" ask hand.db --reissue
 grep -q '^5,' out || fail "reissue: $(cat out)"
+for option in '--seed 2' '--initial 5' '--lower -1,0 --upper 1,3' '--lower 0 --upper 1'; do
+    expect 1 "$tool" ask hand.db $option
+done
+expect 0 "$tool" ask hand.db --lower -1,0 --upper 1,2 --seed 1 --initial 4 --budget 9
+grep -q '^6,' out || fail "the same study with a larger budget: $(cat out)"
+expect 0 "$tool" ask hand.db --lower -1,0 --upper 1,2
+expect 0 "$tool" status hand.db --json
+[ "$(number budget)" = 9 ] || fail "the budget was not kept: $(cat out)"
+expect 1 "$tool" ask huge.db --lower 0 --upper 1 --initial 18446744073709551615
+[ ! -e huge.db ] || fail "a store was made by a refused ask"
+if [ -c /dev/full ]; then
+    expect 0 "$tool" ask full.db --lower 0 --upper 1
+    "$tool" tell full.db 1 3
+    "$tool" ask full.db -n 2 >/dev/full 2>err && fail "ask >/dev/full succeeded"
+    says 'standard output: '
+    expect 0 "$tool" export full.db
+    [ "$(wc -l <out)" -eq 2 ] || fail "points that nobody read: $(cat out)"
+    "$tool" ask full.db --json >/dev/full 2>err && fail "ask --json >/dev/full succeeded"
+    expect 0 "$tool" ask full.db
+    grep -q '^2,' out || fail "a point that nobody read is not the next: $(cat out)"
+fi
 expect 2 "$tool" tell hand.db
 expect 1 "$tool" ask none.db
 expect 1 "$tool" best table.csv

@@ -2,12 +2,17 @@
 #include "commands.h"
 #include "config.h"
 
+#include <errno.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 struct arguments {
     char *store, *config;
     size_t n, n_lower, n_upper, initial, budget;
     uint64_t seed;
+    bool seed_given, initial_given, budget_given;
     double *lower, *upper;
     bool reissue, json;
 };
@@ -23,9 +28,12 @@ static const struct setting ROWS[] = {
            .sentence = "create the store for a box, with --upper"),
     OPTION("upper", NUMBERS, upper, .count = offsetof(struct arguments, n_upper),
            .sentence = "the other end of the box"),
-    OPTION("seed", SEED, seed, .otherwise = "1", .sentence = "of the new store"),
-    OPTION("initial", COUNT, initial, .sentence = "design of the new store; 0: by rule"),
-    OPTION("budget", COUNT, budget, .sentence = "evaluations in all of the new store; 0: by rule"),
+    OPTION("seed", SEED, seed, .otherwise = "1", .given = offsetof(struct arguments, seed_given),
+           .sentence = "of the new store"),
+    OPTION("initial", COUNT, initial, .given = offsetof(struct arguments, initial_given),
+           .sentence = "design of the new store; 0: by rule"),
+    OPTION("budget", COUNT, budget, .given = offsetof(struct arguments, budget_given),
+           .sentence = "evaluations in all, also of a store that exists; 0: by rule"),
     OPTION("json", SWITCH, json, .sentence = "one JSON object"),
 };
 
@@ -71,61 +79,127 @@ static bool create_from_config(const struct arguments *a)
     return ok;
 }
 
-/* levels is NULL if there is only one. */
-static void print_csv(const struct names *names, size_t n, const double *x, const uint64_t *ids,
-                      const int *levels)
+/* What was given of a store that exists must be what it was made with; its budget may change. */
+static bool agrees(const struct arguments *a, bayesopt *bo, const struct names *names)
+{
+    double *bounds = malloc(2 * names->d * sizeof *bounds);
+    if (!bounds)
+        return cli_refuse("out of memory");
+    bayesopt_dimension(bo, bounds, bounds + names->d);
+    bool ok =
+        !a->lower || a->n_lower == names->d ||
+        cli_refuse("--lower has %zu numbers, %s has %zu variables", a->n_lower, a->store, names->d);
+    for (size_t j = 0; j < names->d && a->lower && ok; j++)
+        ok = (a->lower[j] == bounds[j] && a->upper[j] == bounds[names->d + j]) ||
+             cli_refuse("%s exists, where '%s' goes from %g to %g, not from %g to %g", a->store,
+                        names->variables[j], bounds[j], bounds[names->d + j], a->lower[j],
+                        a->upper[j]);
+    free(bounds);
+    if (ok && a->seed_given && a->seed != bayesopt_seed(bo))
+        ok = cli_refuse("%s exists and has the seed %llu, not %llu", a->store,
+                        (unsigned long long)bayesopt_seed(bo), (unsigned long long)a->seed);
+    if (ok && a->initial_given && a->initial && a->initial != bayesopt_initial_count(bo))
+        ok = cli_refuse("%s exists and has an initial design of %zu, not %zu", a->store,
+                        bayesopt_initial_count(bo), a->initial);
+    if (ok && a->budget_given && bayesopt_set_budget(bo, a->budget))
+        ok = cli_refuse("%s", bayesopt_last_error());
+    return ok;
+}
+
+/* Points as they were asked; levels is NULL if there is only one. */
+struct points {
+    size_t n;
+    double *x;
+    uint64_t *ids;
+    int *levels;
+};
+
+static void print_header(const struct names *names, bool levels)
 {
     printf(levels ? "id,level" : "id");
     for (size_t j = 0; j < names->d; j++)
         printf(",%s", names->variables[j]);
     putchar('\n');
-    for (size_t i = 0; i < n && ids[i]; i++) {
-        printf("%llu", (unsigned long long)ids[i]);
-        if (levels)
-            printf(",%d", levels[i]);
+}
+
+static void print_csv(const struct names *names, const struct points *p)
+{
+    for (size_t i = 0; i < p->n && p->ids[i]; i++) {
+        printf("%llu", (unsigned long long)p->ids[i]);
+        if (p->levels)
+            printf(",%d", p->levels[i]);
         for (size_t j = 0; j < names->d; j++)
-            printf(",%.17g", x[i * names->d + j]);
+            printf(",%.17g", p->x[i * names->d + j]);
         putchar('\n');
     }
 }
 
-static void print_points_json(const struct names *names, size_t n, const double *x,
-                              const uint64_t *ids, const int *levels)
+static void print_points_json(const struct names *names, const struct points *p)
 {
     json_t *points = json_array();
-    for (size_t i = 0; i < n && ids[i]; i++) {
-        json_t *point = json_pack("{s:I, s:o}", "id", (json_int_t)ids[i], "x",
-                                  named_json(names->d, names->variables, x + i * names->d));
-        if (levels)
-            json_object_set_new(point, "level", json_integer(levels[i]));
+    for (size_t i = 0; i < p->n && p->ids[i]; i++) {
+        json_t *point = json_pack("{s:I, s:o}", "id", (json_int_t)p->ids[i], "x",
+                                  named_json(names->d, names->variables, p->x + i * names->d));
+        if (p->levels)
+            json_object_set_new(point, "level", json_integer(p->levels[i]));
         json_array_append_new(points, point);
     }
     print_json(stdout, json_pack("{s:o}", "points", points));
 }
 
-static bool ask(const struct arguments *a)
+static bool written(void)
 {
-    bayesopt *bo;
-    struct names names;
-    if (!store_open_to_write(a->store, &bo, &names))
-        return false;
-    double *x = malloc(a->n * names.d * sizeof *x);
-    uint64_t *ids = calloc(a->n, sizeof *ids);
-    int *levels = calloc(a->n, sizeof *levels);
-    bool ok = (x && ids && levels) || cli_refuse("out of memory");
-    bayesopt_status status = a->reissue ? bayesopt_reclaim(bo) : BAYESOPT_OK;
+    return (fflush(stdout) == 0 && !ferror(stdout)) ||
+           cli_refuse("standard output: %s", strerror(errno));
+}
+
+/* Prints what was asked. Points that nobody can read are to be asked again. */
+static bool print_points(const struct arguments *a, bayesopt *bo, const struct names *names,
+                         const struct points *p)
+{
+    (a->json ? print_points_json : print_csv)(names, p);
+    if (written())
+        return true;
+    for (size_t i = 0; i < p->n && p->ids[i]; i++)
+        bayesopt_release(bo, p->ids[i]);
+    return false;
+}
+
+static bool ask(const struct arguments *a, bayesopt *bo, const struct names *names)
+{
+    bool levels = bayesopt_level_count(bo) > 1;
+    struct points p = {a->n, malloc(a->n * names->d * sizeof *p.x), calloc(a->n, sizeof *p.ids),
+                       calloc(a->n, sizeof *p.levels)};
+    int *all_levels = p.levels;
+    bool ok = (p.x && p.ids && p.levels) || cli_refuse("out of memory");
+    bayesopt_status status = ok && a->reissue ? bayesopt_reclaim(bo) : BAYESOPT_OK;
+    if (ok && !status && !a->json) { /* an output that takes nothing costs no point */
+        print_header(names, levels);
+        ok = written();
+    }
     if (ok && !status)
-        status = bayesopt_ask_levels(bo, a->n, x, ids, levels);
+        status = bayesopt_ask_levels(bo, a->n, p.x, p.ids, p.levels);
+    p.levels = levels ? all_levels : NULL;
     if (ok && status > 0)
         ok = cli_refuse("%s: %s", a->store, bayesopt_status_string(status));
     else if (ok && (status || bayesopt_detach(bo)))
         ok = cli_refuse("%s", bayesopt_last_error());
-    if (ok)
-        (a->json ? print_points_json : print_csv)(&names, a->n, x, ids,
-                                                  bayesopt_level_count(bo) > 1 ? levels : NULL);
-    free(x);
-    free(ids);
-    free(levels);
+    ok = ok && print_points(a, bo, names, &p);
+    free(p.x);
+    free(p.ids);
+    free(all_levels);
+    return ok;
+}
+
+static bool run(const struct arguments *a)
+{
+    bayesopt *bo;
+    struct names names;
+    bool exists = access(a->store, F_OK) == 0;
+    if ((a->config && !create_from_config(a)) || (!exists && a->lower && !create_from_box(a)) ||
+        !store_open_to_write(a->store, &bo, &names))
+        return false;
+    bool ok = (!exists || agrees(a, bo, &names)) && ask(a, bo, &names);
     names_free(&names);
     bayesopt_free(bo);
     return ok;
@@ -137,9 +211,7 @@ int command_ask(int argc, char **argv)
     settings_start(&TABLE, &a);
     int code = settings_options(argc, argv, &TABLE, &a, NULL, NULL);
     if (code < 0)
-        code = (!a.config || create_from_config(&a)) && (!a.lower || create_from_box(&a)) && ask(&a)
-                   ? CLI_OK
-                   : CLI_FAILED;
+        code = run(&a) ? CLI_OK : CLI_FAILED;
     settings_free(&TABLE, &a);
     return code;
 }

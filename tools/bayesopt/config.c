@@ -68,18 +68,31 @@ static const struct setting VARIABLE_ROWS[] = {
         .sentence = "of variables with one length scale, from 0 on"),
 };
 
+/* {id} and {level} stand for the evaluation's own in a command, the others are columns of the
+ * history; what separates columns or fields is none of a name. */
+static void check_name(struct settings_source *source, const char *name)
+{
+    static const char *const taken[] = {"id", "level", "phase", "state", "f", "feasible", "note"};
+    for (size_t i = 0; i < sizeof taken / sizeof *taken; i++)
+        if (strcmp(name, taken[i]) == 0)
+            settings_complain(source, "name",
+                              "is '%s', which stands for the evaluation's own; expected another "
+                              "name",
+                              name);
+    if (!*name || strpbrk(name, ",{}\"\n\r"))
+        settings_complain(source, "name",
+                          "is '%s', expected a name without commas, braces and "
+                          "quotes",
+                          name);
+}
+
 static void check_variable(struct settings_source *source, void *target)
 {
     const struct config_variable *v = target;
     if (!(v->lower < v->upper))
         settings_complain(source, "upper", "is %g, expected more than the lower bound %g", v->upper,
                           v->lower);
-    if (strcmp(v->name, "id") == 0 || strcmp(v->name, "level") == 0)
-        settings_complain(
-            source, "name",
-            "is '%s', which stands for the evaluation's own %s in a command; expected "
-            "another name",
-            v->name, v->name);
+    check_name(source, v->name);
 }
 
 static const struct settings VARIABLE = {COUNT(VARIABLE_ROWS), VARIABLE_ROWS,
@@ -96,6 +109,7 @@ static const struct setting CONSTRAINT_ROWS[] = {
 static void check_constraint(struct settings_source *source, void *target)
 {
     const struct config_constraint *c = target;
+    check_name(source, c->name);
     if (isinf(c->lower) && isinf(c->upper))
         settings_complain(source, "name", "is '%s', which has neither lower nor upper", c->name);
     else if (!(c->lower < c->upper))
@@ -276,7 +290,16 @@ static void check(struct settings_source *source, void *target)
         for (size_t k = 0; k < j; k++)
             if (strcmp(c->variables[j].name, c->variables[k].name) == 0)
                 settings_complain(source, "variables", "has two called '%s'", c->variables[j].name);
+        for (size_t k = 0; k < c->n_constraints; k++)
+            if (strcmp(c->variables[j].name, c->constraints[k].name) == 0)
+                settings_complain(source, "constraints", "has one called '%s', as a variable is",
+                                  c->variables[j].name);
     }
+    for (size_t j = 0; j < c->n_constraints; j++)
+        for (size_t k = 0; k < j; k++)
+            if (strcmp(c->constraints[j].name, c->constraints[k].name) == 0)
+                settings_complain(source, "constraints", "has two called '%s'",
+                                  c->constraints[j].name);
     if (grouped && grouped < c->n_variables)
         settings_complain(source, "variables", "has a group for %zu of %zu, expected all", grouped,
                           c->n_variables);
@@ -375,65 +398,4 @@ char *config_folder(const struct config *c)
 bool config_knows_transient(const struct config *c)
 {
     return c->n_transient_status || c->transient_pattern || c->transient_timeout;
-}
-
-/* The texts of all templates, one behind the other. */
-static char *join_templates(const struct config *c)
-{
-    char *joined = NULL;
-    size_t size;
-    FILE *out = open_memstream(&joined, &size);
-    bool ok = out != NULL;
-    for (size_t i = 0; i < c->n_templates && ok; i++) {
-        size_t length;
-        char *text = template_read(c->templates[i], &length);
-        ok = text != NULL || cli_refuse("%s: %s", c->templates[i], strerror(errno));
-        if (ok)
-            fputs(text, out);
-        free(text);
-    }
-    if (out && fclose(out) == 0 && ok)
-        return joined;
-    free(joined);
-    return NULL;
-}
-
-/* Whether the templates are those of the store; without, they become so. */
-static bool keep_templates(const struct config *c, bayesopt *bo)
-{
-    char *there = NULL, *here = join_templates(c);
-    bool ok = here != NULL;
-    if (ok && bayesopt_store_get_text(bo, "objective.template", &there))
-        ok = cli_refuse("%s", bayesopt_last_error());
-    else if (ok && there && strcmp(there, here) != 0)
-        ok = cli_refuse("the store is of another study: the text of objective.template differs");
-    else if (ok && !there)
-        ok = store_keep(bo, "objective.template", here);
-    free(there);
-    free(here);
-    return ok;
-}
-
-/* What says what is evaluated, in addition to the names. */
-static bool keep_objective(const struct config *c, bayesopt *bo)
-{
-    return names_keep(bo, &c->names) && store_keep(bo, "objective.command", c->command) &&
-           store_keep(bo, "objective.key", c->key ? c->key : "") &&
-           store_keep(bo, "objective.file", c->file ? c->file : "") &&
-           store_keep(bo, "levels.cheap", c->cheap ? c->cheap : "") && keep_templates(c, bo);
-}
-
-bool config_create(const struct config *c, const char *store, bayesopt **bo)
-{
-    *bo = NULL;
-    size_t d = c->n_variables;
-    bool ok = (!bayesopt_create(d, c->bounds, c->bounds + d, &c->options, bo) &&
-               !bayesopt_open_store(*bo, store)) ||
-              cli_refuse("%s", bayesopt_last_error());
-    ok = ok && keep_objective(c, *bo);
-    if (!ok) {
-        bayesopt_free(*bo);
-        *bo = NULL;
-    }
-    return ok;
 }

@@ -22,6 +22,14 @@
 extern "C" {
 #endif
 
+/** What is refused as too much, with BAYESOPT_ERROR_ARGUMENT. What exact inference can bear is
+ * less: about 1000 points, see docs/bayesopt.md. */
+enum {
+    BAYESOPT_MOST_VARIABLES = 1000,   /**< d */
+    BAYESOPT_MOST_POINTS = 1000000,   /**< n of a design, of a batch, of the data of a regression */
+    BAYESOPT_MOST_CONSTRAINTS = 1000, /**< of outcome, input and linear constraints, each */
+};
+
 /** The one list of codes: X(name, value, text). */
 #define BAYESOPT_STATUS_LIST(X)                                                                    \
     X(BAYESOPT_OK, 0, "success")                                                                   \

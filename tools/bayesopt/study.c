@@ -1,0 +1,120 @@
+/* A study and its store: the store of another study is refused before anything is written. */
+#include "cli.h"
+#include "config.h"
+#include "template.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* The texts of all templates, one behind the other. */
+static char *join_templates(const struct config *c)
+{
+    char *joined = NULL;
+    size_t size;
+    FILE *out = open_memstream(&joined, &size);
+    bool ok = out != NULL;
+    for (size_t i = 0; i < c->n_templates && ok; i++) {
+        size_t length;
+        char *text = template_read(c->templates[i], &length);
+        ok = text != NULL || cli_refuse("%s: %s", c->templates[i], strerror(errno));
+        if (ok)
+            fputs(text, out);
+        free(text);
+    }
+    if (out && fclose(out) == 0 && ok)
+        return joined;
+    free(joined);
+    return NULL;
+}
+
+/* Whether the templates are those of the store; without, they become so. */
+static bool keep_templates(const struct config *c, bayesopt *bo)
+{
+    char *there = NULL, *here = join_templates(c);
+    bool ok = here != NULL;
+    if (ok && bayesopt_store_get_text(bo, "objective.template", &there))
+        ok = cli_refuse("%s", bayesopt_last_error());
+    else if (ok && there && strcmp(there, here) != 0)
+        ok = cli_refuse("the store is of another study: the text of objective.template differs");
+    else if (ok && !there)
+        ok = store_keep(bo, "objective.template", here);
+    free(there);
+    free(here);
+    return ok;
+}
+
+/* What says what is evaluated, in addition to the names. */
+static bool keep_objective(const struct config *c, bayesopt *bo)
+{
+    return names_keep(bo, &c->names) && store_keep(bo, "objective.command", c->command) &&
+           store_keep(bo, "objective.key", c->key ? c->key : "") &&
+           store_keep(bo, "objective.file", c->file ? c->file : "") &&
+           store_keep(bo, "levels.cheap", c->cheap ? c->cheap : "") && keep_templates(c, bo);
+}
+
+/* Variables or outcome constraints and their bounds, each by its name. */
+static bool same_bounds(const char *store, const char *kind, size_t n, char *const *there_names,
+                        const double *there, size_t m, char *const *here_names, const double *here)
+{
+    if (n != m)
+        return cli_refuse("%s is of another study: it has %zu %ss, here are %zu", store, n, kind,
+                          m);
+    for (size_t j = 0; j < n; j++)
+        if (strcmp(there_names[j], here_names[j]) != 0)
+            return cli_refuse("%s is of another study: %s %zu is '%s' there, '%s' here", store,
+                              kind, j + 1, there_names[j], here_names[j]);
+    for (size_t j = 0; j < n; j++)
+        if (there[j] != here[j] || there[n + j] != here[n + j])
+            return cli_refuse("%s is of another study: %s '%s' goes from %g to %g there, from %g "
+                              "to %g here",
+                              store, kind, here_names[j], there[j], there[n + j], here[j],
+                              here[n + j]);
+    return true;
+}
+
+/* Compares an existing store with the file by names. One that cannot be opened is left to
+ * bayesopt_open_store(), which says why. */
+static bool is_same_study(const struct config *c, const char *store)
+{
+    size_t d = c->names.d, m = c->names.m;
+    bayesopt *bo;
+    struct names names;
+    if (access(store, F_OK) != 0 || bayesopt_open_read(store, &bo))
+        return true;
+    bool ok = names_read(bo, &names);
+    double *there = ok ? malloc(2 * (names.d + names.m) * sizeof *there) : NULL;
+    if (ok && !there)
+        ok = cli_refuse("out of memory");
+    if (ok) {
+        bayesopt_dimension(bo, there, there + names.d);
+        bayesopt_constraint_count(bo, there + 2 * names.d, there + 2 * names.d + names.m);
+        ok = same_bounds(store, "variable", names.d, names.variables, there, d, c->names.variables,
+                         c->bounds) &&
+             same_bounds(store, "constraint", names.m, names.constraints, there + 2 * names.d, m,
+                         c->names.constraints, c->bounds + 2 * d);
+        names_free(&names);
+    }
+    free(there);
+    bayesopt_free(bo);
+    return ok;
+}
+
+bool config_create(const struct config *c, const char *store, bayesopt **bo)
+{
+    *bo = NULL;
+    size_t d = c->n_variables;
+    if (!is_same_study(c, store))
+        return false;
+    bool ok = (!bayesopt_create(d, c->bounds, c->bounds + d, &c->options, bo) &&
+               !bayesopt_open_store(*bo, store)) ||
+              cli_refuse("%s", bayesopt_last_error());
+    ok = ok && keep_objective(c, *bo);
+    if (!ok) {
+        bayesopt_free(*bo);
+        *bo = NULL;
+    }
+    return ok;
+}
