@@ -10,7 +10,7 @@ struct igabem_solution {
     igabem_hull_info info;
     double x_aft, x_fore;
     double speed, k0; /* m/s, 1/m; without a Froude number speed 1 and k0 = 0 */
-    int waves;        /* the sources radiate waves: Kochin function and resistance exist */
+    bool waves;       /* the sources radiate waves: Kochin function and resistance exist */
     struct density *density;
     double *sigma;       /* [n] coefficients of the density, m/s */
     double *velocity;    /* [3][n] coefficients of grad phi on the hull, fluid side; NULL: none */
@@ -23,6 +23,19 @@ struct igabem_solution {
     double seconds;
     double memory; /* bytes of influences and matrix */
 };
+
+/* Fills *solution but for what solving finds; to be freed also after an error. */
+igabem_status solution_create(const igabem_hull *hull, const igabem_options *options,
+                              igabem_solution **solution);
+
+igabem_status solution_no_memory(size_t n);
+
+/* U n_x at the collocation points: the right-hand side, and Hogner's density. */
+void solution_normal_flow(const igabem_solution *solution, double *values);
+
+/* Share of the Kelvin kernel in the rows at x: all of it, but ahead of x_s only with the stern
+ * variant, with a smooth switch; double body elsewhere. */
+double solution_wave_share(const igabem_solution *solution, double x);
 
 /* chi = 1/(1 + (|nu_x|/nu_c)^4), the stem limiter of the line term. */
 double solution_stem_limiter(const igabem_options *options, double nu_x);

@@ -1,0 +1,138 @@
+#include "solve/setting.h"
+
+#include "solve/assemble.h"
+#include "solve/filters.h"
+#include "solve/formulation.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* How a setting weighs the parts, row by row:
+ *     velocity_i = rankine + image[i] image + wave[i] (local + wave). */
+struct weights {
+    double *image, *wave; /* [n] */
+};
+
+static void add_weighted(const struct influence *influence, const double *weight,
+                         const double *from, double *to)
+{
+    size_t n = influence->density->n;
+#pragma omp parallel for num_threads(influence->threads) schedule(static)
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 3 * n * i; k < 3 * n * (i + 1) && weight[i] != 0.0; k++)
+            to[k] += weight[i] * from[k];
+}
+
+/* Adds waterline and waves of one setting to rows; creates the operator of what the filters beyond
+ * the first change in the matrix. */
+static igabem_status wave_rows(const struct influence *influence, const igabem_solution *solution,
+                               const double *weight, double *rows, struct wave_change **change)
+{
+    const igabem_options *options = &solution->options;
+    double cutoff[FILTERS_MOST];
+    size_t filters = filters_of(options, cutoff);
+    struct line *line = NULL;
+    igabem_status status = IGABEM_OK;
+    if (options->line_term)
+        status = line_create(influence->density, influence->mesh, options->stem_limit, &line);
+    if (status == IGABEM_OK && line)
+        status = influence_local_line(influence, line, solution->k0, weight, rows);
+    if (status == IGABEM_OK)
+        status =
+            influence_wave(influence, line, solution->k0, filters, cutoff, weight, rows, change);
+    line_free(line);
+    return status;
+}
+
+/* Fills rows with the velocities of a setting; fraction is done after the Rankine part. */
+static igabem_status fill_rows(const struct influence *influence, const struct parts *parts,
+                               struct progress *progress, double fraction,
+                               const struct weights *weights, const igabem_solution *solution,
+                               double *rows, struct wave_change **change)
+{
+    size_t n = influence->density->n;
+    const double *image = formulation_has_image(&solution->options) ? weights->image : NULL;
+    igabem_status status = IGABEM_OK;
+    if (parts->rankine) {
+        memcpy(rows, parts->rankine, 3 * n * n * sizeof *rows);
+        if (image)
+            add_weighted(influence, image, parts->image, rows);
+    } else {
+        status = influence_rankine(influence, rows, NULL, image);
+    }
+    if (status == IGABEM_OK)
+        status = progress_report(progress, fraction);
+    if (status != IGABEM_OK || !formulation_has_waves(&solution->options))
+        return status;
+    if (parts->local)
+        add_weighted(influence, weights->wave, parts->local, rows);
+    else
+        status = influence_local(influence, solution->k0, weights->wave, rows);
+    if (status == IGABEM_OK)
+        status = wave_rows(influence, solution, weights->wave, rows, change);
+    return status;
+}
+
+/* Density and velocities from the rows, which are used up. */
+static igabem_status solve_rows(const struct influence *influence, const struct wave_change *change,
+                                double *rows, igabem_solution *solution)
+{
+    size_t n = influence->density->n;
+    const struct matrix matrix = {n, 3 * n, rows, influence->threads};
+    double cutoff[FILTERS_MOST];
+    size_t filters = filters_of(&solution->options, cutoff);
+    solution->velocity = malloc(3 * n * sizeof *solution->velocity);
+    double *flow = malloc(n * sizeof *flow);
+    igabem_status status = solution->velocity && flow ? IGABEM_OK : solution_no_memory(n);
+    if (status == IGABEM_OK) {
+        assemble_turn(influence, rows);
+        status = filters_solve(&matrix, solution, filters, change);
+    }
+    if (status == IGABEM_OK) {
+        solution_normal_flow(solution, flow);
+        assemble_velocity(influence, rows, flow, solution->sigma, solution->velocity);
+        status = density_interpolate(solution->density, 3, solution->velocity);
+    }
+    free(flow);
+    return status;
+}
+
+static void fill_weights(const igabem_solution *solution, const struct weights *weights)
+{
+    const struct density *density = solution->density;
+    for (size_t i = 0; i < density->n; i++) {
+        double share = solution_wave_share(solution, density->point[3 * i]);
+        weights->wave[i] = share;
+        weights->image[i] = 2.0 * share - 1.0;
+    }
+}
+
+igabem_status setting_solve(const struct influence *influence, const struct parts *parts,
+                            struct progress *progress, double fraction, igabem_solution *solution)
+{
+    size_t n = influence->density->n;
+    if (!formulation_solves(&solution->options)) {
+        solution_normal_flow(solution, solution->sigma);
+        return density_interpolate(solution->density, 1, solution->sigma);
+    }
+    size_t arrays = 3; /* n^2 doubles each */
+    arrays += 3 * ((size_t) !!parts->rankine + (size_t) !!parts->image + (size_t) !!parts->local);
+    solution->memory = (double)(arrays * n * n * sizeof(double));
+    double *rows = calloc(3 * n * n, sizeof *rows);
+    double *weight = malloc(2 * n * sizeof *weight);
+    const struct weights weights = {weight, weight + n};
+    struct wave_change *change = NULL;
+    igabem_status status = rows && weight ? IGABEM_OK : solution_no_memory(n);
+    if (status == IGABEM_OK) {
+        fill_weights(solution, &weights);
+        status = fill_rows(influence, parts, progress, fraction, &weights, solution, rows, &change);
+    }
+    if (change)
+        solution->memory += wave_change_memory(change);
+    if (status == IGABEM_OK)
+        status = solve_rows(influence, change, rows, solution);
+    free(weight);
+    free(rows);
+    wave_change_free(change);
+    return status;
+}

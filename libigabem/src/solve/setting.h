@@ -1,0 +1,21 @@
+/* One setting: its rows of the matrix from the parts of the Green function, its density and its
+ * velocities. */
+#ifndef SETTING_H
+#define SETTING_H
+
+#include "influence/influence.h"
+#include "solve/progress.h"
+#include "solve/solution.h"
+
+/* Parts of the Green function that several settings share, [n][3][n]; all NULL for one setting,
+ * whose weights are applied as the parts are integrated. */
+struct parts {
+    double *rankine, *image, *local;
+    double local_k0; /* that local is for; 0: none */
+};
+
+/* Fills sigma, velocity and what qualifies them; fraction is done after the Rankine part. */
+igabem_status setting_solve(const struct influence *influence, const struct parts *parts,
+                            struct progress *progress, double fraction, igabem_solution *solution);
+
+#endif
