@@ -22,15 +22,13 @@
 #define IGABEM_KELVIN_CONTOUR_H
 
 #include "kelvin/kelvin_vecmath.h"
+#include "kelvin/kelvin_wave_kernel.h"
 
 /* x, y, z as above, of one point, two or sixteen in the lanes; e2 = e^2 of the filter or 0. */
 struct kelvin_wave_points {
     kelvin_vec x, y, z;
     double e2;
 };
-
-/* Which integrand: known at compile time wherever it is passed on. */
-enum kelvin_kind { KELVIN_PLAIN, KELVIN_FILTERED, KELVIN_SECOND_DERIVATIVES };
 
 struct kelvin_complex {
     kelvin_vec re, im;

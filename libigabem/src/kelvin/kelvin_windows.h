@@ -50,9 +50,9 @@ struct kelvin_probe {
     kelvin_vec q, frequency, curvature, above;
 };
 
-KELVIN_INLINE void kelvin_probe_at(const struct kelvin_wave_points *p, const kelvin_bits *curved,
-                                   const kelvin_vec *q, enum kelvin_kind kind,
-                                   struct kelvin_probe *probe)
+KELVIN_OUTLINE void kelvin_probe_at(const struct kelvin_wave_points *p, const kelvin_bits *curved,
+                                    const kelvin_vec *q, enum kelvin_kind kind,
+                                    struct kelvin_probe *probe)
 {
     struct kelvin_nodes nodes;
     kelvin_vec size = 1 + 2 * *q * *q, log, one = {0}, stretch;
@@ -77,8 +77,8 @@ KELVIN_INLINE void kelvin_demand(const struct kelvin_probe *at, kelvin_vec *dema
 }
 
 /* The largest of *demand and of B at `to` and half way there, up to the cut at most. */
-KELVIN_INLINE void kelvin_demand_between(const struct kelvin_probe *from,
-                                         const struct kelvin_probe *to, kelvin_vec *demand)
+KELVIN_OUTLINE void kelvin_demand_between(const struct kelvin_probe *from,
+                                          const struct kelvin_probe *to, kelvin_vec *demand)
 {
     kelvin_vec one = {0}, zero = {0}, part, here;
     one += 1;
@@ -100,7 +100,7 @@ struct kelvin_saddles {
     kelvin_bits real;
 };
 
-KELVIN_INLINE void kelvin_q_of_t(const kelvin_vec *t, kelvin_vec *q)
+KELVIN_OUTLINE void kelvin_q_of_t(const kelvin_vec *t, kelvin_vec *q)
 {
     kelvin_vec square = 1 + *t * *t, root;
     kelvin_vrsqrt(&square, &root);
@@ -203,9 +203,9 @@ struct kelvin_range {
     kelvin_vec last, demand;
 };
 
-KELVIN_INLINE void kelvin_look_outwards(const struct kelvin_probe *start,
-                                        const struct kelvin_probe *probe, int probes,
-                                        struct kelvin_range *seen)
+KELVIN_OUTLINE void kelvin_look_outwards(const struct kelvin_probe *start,
+                                         const struct kelvin_probe *probe, int probes,
+                                         struct kelvin_range *seen)
 {
     const struct kelvin_probe *before = start;
     kelvin_vec zero = {0};
@@ -350,8 +350,8 @@ KELVIN_INLINE void kelvin_find_dip(const struct kelvin_wave_points *p, const kel
     }
 }
 
-KELVIN_INLINE void kelvin_step(const kelvin_vec *demand, const kelvin_bits *curved,
-                               const kelvin_bits *real, kelvin_vec *step)
+KELVIN_OUTLINE void kelvin_step(const kelvin_vec *demand, const kelvin_bits *curved,
+                                const kelvin_bits *real, kelvin_vec *step)
 {
     kelvin_vec zero = {0}, strip = zero + KELVIN_STRIP, complex = zero + KELVIN_STRIP_COMPLEX,
                curve = zero + KELVIN_STRIP_LONG;
@@ -363,7 +363,7 @@ KELVIN_INLINE void kelvin_step(const kelvin_vec *demand, const kelvin_bits *curv
 }
 
 /* From q to p: asinh of either sign in the lanes that are curved. */
-KELVIN_INLINE void kelvin_p_of_q(const kelvin_bits *curved, kelvin_vec *q)
+KELVIN_OUTLINE void kelvin_p_of_q(const kelvin_bits *curved, kelvin_vec *q)
 {
     kelvin_vec size = KELVIN_MAX(*q, -*q), square = 1 + size * size, root, p, zero = {0};
     kelvin_vrsqrt(&square, &root);

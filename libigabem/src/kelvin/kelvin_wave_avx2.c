@@ -1,0 +1,14 @@
+#include "kelvin/kelvin_simd.h"
+
+#ifdef KELVIN_X86
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx2,fma"))), apply_to = function)
+#else
+#pragma GCC target("avx2,fma")
+#endif
+#define KELVIN_WAVE_KERNEL kelvin_wave_avx2
+#include "kelvin/kelvin_wave_integral.h"
+#if defined(__clang__)
+#pragma clang attribute pop
+#endif
+#endif
