@@ -117,9 +117,11 @@ size_t history_best(const struct bayesopt *bo, bool *feasible)
     return best;
 }
 
-bayesopt_status bayesopt_best(const bayesopt *bo, double *x, double *f, uint64_t *id)
+bayesopt_status bayesopt_best_told(const bayesopt *bo, double *x, double *f, uint64_t *id)
 {
     bool feasible;
+    if (!bo)
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "the optimisation is NULL");
     size_t best = history_best(bo, &feasible);
     if (best == SIZE_MAX)
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "no evaluation has succeeded yet");

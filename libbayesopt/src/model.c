@@ -4,14 +4,85 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
+
+/* Values the objective's model can be fitted to. */
+static size_t count_done(const bayesopt *bo)
+{
+    size_t done = 0;
+    for (size_t i = 0; i < bo->n_points; i++)
+        done += point_counts(bo, &bo->points[i]);
+    return done;
+}
 
 static bayesopt_status ensure_model(bayesopt *bo)
 {
-    size_t done = history_count_state(bo, BAYESOPT_STATE_DONE);
+    size_t done = count_done(bo);
     if (done < 2)
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
                              "a model needs two successful evaluations, there are %zu", done);
     return bo->surrogates.fitted ? BAYESOPT_OK : surrogates_fit(bo, false);
+}
+
+/* Violation of the outcome constraints at a point of [0,1]^d, by the means of their models. */
+static bayesopt_status predict_violation(const bayesopt *bo, const double *u, double *violation)
+{
+    bayesopt_status status = BAYESOPT_OK;
+    *violation = 0;
+    for (size_t k = 0; k < bo->options.n_constraints && !status; k++) {
+        const bayesopt_gp *gp = bo->surrogates.gps[k + 1];
+        double mean;
+        status = bayesopt_gp_predict(gp, 1, u, &mean, NULL);
+        mean = status ? NAN : bayesopt_gp_from_model(gp, mean);
+        *violation += fmax(fmax(mean - bo->constraint_upper[k], bo->constraint_lower[k] - mean), 0);
+    }
+    return status;
+}
+
+/* The evaluated point whose mean is least, within the constraints by their means too. */
+static bayesopt_status best_by_model(bayesopt *bo, size_t *best, double *f, bool *feasible)
+{
+    double least = INFINITY, value;
+    bayesopt_status status = ensure_model(bo);
+    *f = INFINITY;
+    for (size_t i = 0; i < bo->n_points && !status; i++) {
+        const struct point *p = &bo->points[i];
+        double violation = 0;
+        if (!point_counts(bo, p))
+            continue;
+        status = surrogates_predict(bo, 1, p->u, &value, NULL);
+        if (!status)
+            status = predict_violation(bo, p->u, &violation);
+        if (!status && (violation < least || (violation == least && value < *f))) {
+            least = violation;
+            *f = value;
+            *best = i;
+        }
+    }
+    if (!status)
+        *f = bayesopt_gp_from_model(bo->surrogates.gps[0], *f);
+    *feasible = least <= 0;
+    return status;
+}
+
+bayesopt_status bayesopt_best(bayesopt *bo, double *x, double *f, uint64_t *id)
+{
+    bool feasible;
+    double mean;
+    size_t best = bo ? history_best(bo, &feasible) : SIZE_MAX;
+    if (best == SIZE_MAX || bo->options.noise == BAYESOPT_NOISE_DETERMINISTIC || count_done(bo) < 2)
+        return bayesopt_best_told(bo, x, f, id);
+    bayesopt_status status = best_by_model(bo, &best, &mean, &feasible);
+    if (status)
+        return status;
+    const struct point *p = &bo->points[best];
+    if (x)
+        memcpy(x, p->x, bo->d * sizeof *x);
+    if (f)
+        *f = mean;
+    if (id)
+        *id = p->id;
+    return feasible ? BAYESOPT_OK : BAYESOPT_NONE_FEASIBLE;
 }
 
 bayesopt_status bayesopt_predict(bayesopt *bo, size_t n, const double *x, double *mean, double *sd)
@@ -74,6 +145,7 @@ bayesopt_status bayesopt_model(bayesopt *bo, bayesopt_model_info *info, double *
         .signal_variance = parameters.signal,
         .noise_variance = parameters.noise,
         .loo_rms = loo_error(bo->surrogates.gps[0], gp_info.n),
+        .repeat_sd = surrogates_repeat_deviation(bo),
         .trust_length = strategy_trust_length(bo),
     };
     return BAYESOPT_OK;

@@ -74,7 +74,14 @@ void surrogates_restore(struct surrogates *s, size_t d, const double *values)
 struct sample {
     size_t n;
     double *x, *y, *variance;
+    size_t *told; /* values whose mean y is */
 };
+
+static void sample_free(struct sample *sample)
+{
+    free(sample->x);
+    free(sample->told);
+}
 
 static bool sample_create(struct sample *sample, size_t n, size_t d)
 {
@@ -82,26 +89,36 @@ static bool sample_create(struct sample *sample, size_t n, size_t d)
     sample->x = malloc((n ? n : 1) * (d + 2) * sizeof(double));
     sample->y = sample->x + n * d;
     sample->variance = sample->y + n;
-    return sample->x != NULL;
+    sample->told = malloc((n ? n : 1) * sizeof *sample->told);
+    if (sample->x && sample->told)
+        return true;
+    sample_free(sample);
+    return false;
 }
 
 /* Points closer than this in [0,1] units count as one; deterministic data keep their mean, which a
  * factorisation can bear. */
 static const double coincident = 1e-9;
 
+static double largest_difference(size_t d, const double *a, const double *b)
+{
+    double most = 0;
+    for (size_t j = 0; j < d; j++)
+        most = fmax(most, fabs(a[j] - b[j]));
+    return most;
+}
+
 static void sample_add(struct sample *sample, size_t d, const double *u, double y, double variance)
 {
     for (size_t i = 0; i < sample->n; i++) {
-        double most = 0;
-        for (size_t j = 0; j < d; j++)
-            most = fmax(most, fabs(sample->x[i * d + j] - u[j]));
-        if (most < coincident && variance == 0) {
-            sample->y[i] = 0.5 * sample->y[i] + 0.5 * y;
+        if (variance == 0 && largest_difference(d, sample->x + i * d, u) < coincident) {
+            sample->y[i] += (y - sample->y[i]) / (double)++sample->told[i];
             return;
         }
     }
     memcpy(sample->x + sample->n * d, u, d * sizeof *u);
     sample->y[sample->n] = y;
+    sample->told[sample->n] = 1;
     sample->variance[sample->n++] = variance;
 }
 
@@ -294,7 +311,7 @@ static bayesopt_status subtract_cheap(struct bayesopt *bo, struct sample *sample
         return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
     gather(bo, s->count, &cheap);
     bayesopt_status status = cheap.n ? fit_one(bo, s->count, &cheap, keep) : BAYESOPT_OK;
-    free(cheap.x);
+    sample_free(&cheap);
     if (status || !s->cheap || !sample->n)
         return status;
     double *low = malloc(sample->n * (bo->d + 4) * sizeof *low);
@@ -325,7 +342,7 @@ static bayesopt_status fit_which(struct bayesopt *bo, size_t which, bool keep)
         status = fit_labels(bo, which, &sample, keep);
     else if (!status && sample.n)
         status = fit_one(bo, which, &sample, keep);
-    free(sample.x);
+    sample_free(&sample);
     return status;
 }
 
@@ -421,4 +438,33 @@ bayesopt_status surrogates_cheap_share(const struct bayesopt *bo, const double *
     if (!status && total > 0)
         *share = cheap_factor(s) * cheap_factor(s) * low / total;
     return status;
+}
+
+/* Pooled over the points with several values: sum of squares about their means over n - points. */
+double surrogates_repeat_deviation(const struct bayesopt *bo)
+{
+    double square = 0;
+    size_t freedom = 0;
+    for (size_t i = 0; i < bo->n_points; i++) {
+        double mean = 0, sum = 0;
+        size_t n = 0;
+        for (size_t k = 0; k < bo->n_points; k++) {
+            const struct point *p = &bo->points[k];
+            if (!point_counts(bo, p) || !point_counts(bo, &bo->points[i]) ||
+                largest_difference(bo->d, p->u, bo->points[i].u) >= coincident)
+                continue;
+            if (k < i) { /* counted with the first of them */
+                n = 0;
+                break;
+            }
+            double step = p->f - mean;
+            mean += step / (double)++n;
+            sum += step * (p->f - mean);
+        }
+        if (n > 1) {
+            square += sum;
+            freedom += n - 1;
+        }
+    }
+    return freedom ? sqrt(square / (double)freedom) : NAN;
 }

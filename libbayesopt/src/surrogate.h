@@ -37,6 +37,9 @@ void surrogates_restore(struct surrogates *surrogates, size_t d, const double *v
 /* Fits all models to the history. keep: the new hyper-parameters become the next warm start. */
 bayesopt_status surrogates_fit(struct bayesopt *bo, bool keep);
 
+/* Standard deviation of values told at the same point; NAN if there are none. */
+double surrogates_repeat_deviation(const struct bayesopt *bo);
+
 /* Posterior of the objective at n points of [0,1]^d in units of gps[0], both levels combined. */
 bayesopt_status surrogates_predict(const struct bayesopt *bo, size_t n, const double *x,
                                    double *mean, double *var);

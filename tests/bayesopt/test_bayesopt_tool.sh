@@ -171,6 +171,18 @@ mkdir -p elsewhere && sed 's/name: beam/name: beam2/; s/{beam}/{beam2}/' study.y
 expect 0 "$tool" run elsewhere/study.yaml
 [ -s elsewhere/study.db ] || fail "the store is not beside its file"
 
+# With noise the best is a matter of the model, the luckiest value stands beside it.
+cat >noise.yaml <<'YAML'
+variables: [{name: a, lower: 0, upper: 1}]
+objective: {command: "awk 'BEGIN {{ srand({id}); print 10 * ({a} - 0.3)^2 + 0.3 * (rand() - 0.5) }'"}
+search: {evaluations: 16, initial: 12, noise: learned}
+YAML
+expect 0 "$tool" run noise.yaml
+expect 0 "$tool" best noise.db
+holds "which is the model's mean; told there: .*; least told: "
+expect 0 "$tool" best noise.db --json
+holds '"luckiest": {'
+
 # Names that would be mistaken for something else.
 cat >names.yaml <<'YAML'
 variables:

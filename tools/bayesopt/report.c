@@ -58,17 +58,31 @@ static json_t *point_json(const struct names *names, const bayesopt_point *p)
 
 static bool show_best(bayesopt *bo, const struct names *names, const struct arguments *a)
 {
-    uint64_t id;
+    uint64_t id, lucky;
+    double f, least;
     bayesopt_point point;
-    bayesopt_status status = bayesopt_best(bo, NULL, NULL, &id);
-    if (status < 0)
+    bayesopt_status status = bayesopt_best(bo, NULL, &f, &id);
+    if (status < 0 || bayesopt_best_told(bo, NULL, &least, &lucky) < 0)
         return cli_refuse("%s", bayesopt_last_error());
     for (size_t i = 0; !bayesopt_get(bo, i, &point) && point.id != id;)
         i++;
-    if (a->json)
-        return print_json(stdout, point_json(names, &point));
-    printf("f = %.17g (point %llu%s)\n", point.f, (unsigned long long)id,
+    bool noisy = lucky != id || f != point.f;
+    if (a->json) {
+        json_t *root = point_json(names, &point);
+        if (noisy) {
+            json_object_set_new(root, "f", number_json(f));
+            json_object_set_new(root, "told", number_json(point.f));
+            json_object_set_new(
+                root, "luckiest",
+                json_pack("{s:I, s:o}", "id", (json_int_t)lucky, "f", number_json(least)));
+        }
+        return print_json(stdout, root);
+    }
+    printf("f = %.17g (point %llu%s)\n", f, (unsigned long long)id,
            status ? ", outside the outcome constraints" : "");
+    if (noisy)
+        printf("which is the model's mean; told there: %.17g; least told: %.17g (point %llu)\n",
+               point.f, least, (unsigned long long)lucky);
     for (size_t j = 0; j < names->d; j++)
         printf("%s = %.17g\n", names->variables[j], point.x[j]);
     for (size_t k = 0; k < names->m; k++)
@@ -82,7 +96,8 @@ int command_best(int argc, char **argv)
                 "usage: bayesopt best STORE [OPTION]...\n"
                 "\n"
                 "Prints the best point so far: the least value within the outcome constraints, or\n"
-                "the least violation when none is within them.\n\n",
+                "the least violation when none is within them. With noise it is the point of\n"
+                "least mean, and the least value told stands beside it.\n\n",
                 false, show_best);
 }
 
@@ -103,11 +118,12 @@ static json_t *model_json(bayesopt *bo, const struct names *names)
         return json_null();
     }
     json_t *model = json_pack(
-        "{s:I, s:b, s:s, s:o, s:o, s:o, s:o, s:o, s:o}", "n", (json_int_t)info.n, "isotropic",
+        "{s:I, s:b, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "n", (json_int_t)info.n, "isotropic",
         info.isotropic, "transform", bayesopt_transform_name(info.transform), "log_posterior",
         number_json(info.log_posterior), "jitter", number_json(info.jitter), "signal_variance",
         number_json(info.signal_variance), "noise_variance", number_json(info.noise_variance),
-        "loo_rms", number_json(info.loo_rms), "trust_length", number_json(info.trust_length));
+        "loo_rms", number_json(info.loo_rms), "trust_length", number_json(info.trust_length),
+        "repeat_sd", number_json(info.repeat_sd));
     json_object_set_new(model, "lengthscale", named_json(names->d, names->variables, scales));
     free(scales);
     return model;

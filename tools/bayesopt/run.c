@@ -121,7 +121,7 @@ static bool runner_finish(struct runner *r, struct evaluation *slot, int status)
         return false;
     char detail[64] = "";
     double f;
-    if (bayesopt_best(r->bo, NULL, &f, NULL) >= 0)
+    if (bayesopt_best_told(r->bo, NULL, &f, NULL) >= 0)
         snprintf(detail, sizeof detail, "best %.6g", f);
     cli_progress_update(&r->progress,
                         (double)bayesopt_count(r->bo) / (double)bayesopt_budget(r->bo), detail);
@@ -230,7 +230,7 @@ static bool run(struct runner *r, const char *store)
         r->slots[i].x = r->x + i * d;
     if (!config_create(&r->config, store, &r->bo))
         return false;
-    r->works = bayesopt_best(r->bo, NULL, NULL, NULL) >= 0;
+    r->works = bayesopt_best_told(r->bo, NULL, NULL, NULL) >= 0;
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
     return work(r) && report(r);

@@ -258,14 +258,21 @@ BAYESOPT_API bayesopt_status bayesopt_tell_point_result(bayesopt *bo, const doub
                                                         uint64_t *id);
 
 /**
- * The best evaluation so far: least f among those that satisfy the outcome constraints.
+ * The best evaluated point so far: least f among those that satisfy the outcome constraints. With
+ * noise f is the model's mean there and the constraints are judged by their models' means, since
+ * the least of many noisy values owes more to luck than to the point.
  * @param x   [d] filled; NULL allowed
  * @param f   filled; NULL allowed
  * @param id  filled; NULL allowed
  * @return BAYESOPT_OK; BAYESOPT_NONE_FEASIBLE (positive) with the point of least constraint
  *         violation; BAYESOPT_ERROR_ARGUMENT if nothing has been evaluated successfully
  */
-BAYESOPT_API bayesopt_status bayesopt_best(const bayesopt *bo, double *x, double *f, uint64_t *id);
+BAYESOPT_API bayesopt_status bayesopt_best(bayesopt *bo, double *x, double *f, uint64_t *id);
+
+/** The same by the values as they were told: without noise what bayesopt_best() gives, with noise
+ * the luckiest evaluation. */
+BAYESOPT_API bayesopt_status bayesopt_best_told(const bayesopt *bo, double *x, double *f,
+                                                uint64_t *id);
 
 /** One row of the history. Pointers are borrowed until the next call that changes the object. */
 typedef struct bayesopt_point {
@@ -331,6 +338,8 @@ typedef struct bayesopt_model_info {
     double signal_variance; /**< in squared units of the standardised objective */
     double noise_variance;  /**< likewise */
     double loo_rms;         /**< leave-one-out error over the standard deviation of the data */
+    double repeat_sd;       /**< of values told at the same point, in units of f; NAN: there are
+                                 none. With BAYESOPT_NOISE_DETERMINISTIC their mean is modelled */
     double trust_length;    /**< side of the trust region in [0,1] units */
 } bayesopt_model_info;
 
