@@ -287,7 +287,7 @@ static void test_bad_settings(void)
     CU_ASSERT_TRUE(strstr(runner.err, ":1: hull is 'x'") &&
                    strstr(runner.err, ":2: shape is 'y'") &&
                    strstr(runner.err, ":3: flow.froude is '0'"));
-    check_bad(WIGLEY, "colour: red\n", "no setting 'colour'");
+    check_bad(WIGLEY, "colour: red\n", "colour is no setting");
     char text[500];
     snprintf(text, sizeof text,
              "hull: %s\nshape: " EXAMPLES_DIR "/wigley_shape.yaml\nflow: {froude: 0.3}\n", WIGLEY);

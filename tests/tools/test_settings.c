@@ -117,7 +117,7 @@ static const struct setting ROWS[] = {
      .most = 1e7,
      .otherwise = "9000",
      .sentence = "of the shape"},
-    {.key = "seed", .type = SETTING_SEED, AT(seed), .otherwise = "1", .sentence = "of the draws"},
+    {.key = "seed", .type = SETTING_COUNT, AT(seed), .otherwise = "1", .sentence = "of the draws"},
     {.key = "box",
      .type = SETTING_NUMBER,
      AT(box),
@@ -258,15 +258,15 @@ static const struct wrong {
     {"parts:\n  - name: a\n    bounds: [2, 1]\n",
      ":3: parts.1.bounds are 2 and 1, expected increasing"},
     {"parts:\n  - {name: a, bound: 1}\n",
-     ":2: there is no setting 'parts.1.bound'; did you mean 'bounds'?"},
-    {"sampels: 500\n", ":1: there is no setting 'sampels'; did you mean 'samples'?"},
+     ":2: parts.1.bound is no setting; did you mean 'bounds'?"},
+    {"sampels: 500\n", ":1: sampels is no setting; did you mean 'samples'?"},
     {"solver: {tolerence: 1e-3}\n", "did you mean 'solver.tolerance'?"},
-    {"quite_another: 1\n", ":1: there is no setting 'quite_another'\n"},
+    {"quite_another: 1\n", ":1: quite_another is no setting\n"},
     {"samples: 500\nseed: 2\nsamples: 600\n", ":3: samples is given twice, first on line 1"},
     {"solver: {refine: 2, refine: 2}\n", ":1: solver.refine is given twice, first on line 1"},
-    {"solver.refine: 2\n", ":1: 'solver.refine' is no key"},
-    {"[a, b]: 2\n", ":1: 'list' is no key"},
-    {"- 1\n", ":1: expected a mapping of settings"},
+    {"solver.refine: 2\n", ":1: solver.refine is no key"},
+    {"[a, b]: 2\n", ":1: a list or mapping is no key"},
+    {"- 1\n", ":1: is a list, expected a mapping of settings"},
     {"", ": is empty"},
     {"# nothing\n", ": is empty"},
     {"solver:\n\trefine: 2\n", ":2: has a tab"},
@@ -277,6 +277,9 @@ static const struct wrong {
     {"solver:\n    refine: 2\n  tolerance: 1\n", ":3: has a line that belongs to nothing above it"},
     {"seed: *a\n", ":1: has an '*' that refers to no '&'"},
     {"seed: \xff\n", ": holds bytes that are not UTF-8 text"},
+    {"box: [1, 2, [3]]\n", ":1: box is a list, expected 3 numbers or auto"},
+    {"hull: /dev/zero\n", ":1: hull is '/dev/zero', which cannot be read: no regular file"},
+    {"solvre: {refine: 2}\n", ":1: solvre is no setting; did you mean 'solver'?"},
 };
 
 static void test_wrong_files(void)
@@ -401,14 +404,47 @@ static void test_canonical_text_reads_back(void)
     settings_free(&TABLE, &run);
 }
 
-static void test_line(void)
+static void test_restore(void)
+{
+    struct run run = {0};
+    size_t line;
+    settings_start(&TABLE, &run);
+    CU_ASSERT_TRUE(settings_restore(
+        &TABLE,
+        "hull = a.json (00ff)\nsolver.cutoff = none\nsolver.line_term = false\n"
+        "seed = 18446744073709551615\naxes = z, x\nspeeds = 0.28, 0.41\nsamples =\n",
+        &run, &line));
+    CU_ASSERT_STRING_EQUAL(run.hull, "a.json (00ff)");
+    CU_ASSERT_TRUE(isinf(run.cutoff) && !run.line_term && run.samples == 9000);
+    CU_ASSERT_EQUAL(run.seed, UINT64_MAX);
+    CU_ASSERT_TRUE(run.n_axes == 2 && run.axes[0] == 2 && run.axes[1] == 0);
+    CU_ASSERT_TRUE(run.n_speeds == 2 && run.speeds[1] == 0.41);
+    CU_ASSERT_FALSE(settings_restore(&TABLE, "seed = 1\nsede = 2\n", &run, &line));
+    CU_ASSERT_EQUAL(line, 2);
+    CU_ASSERT_FALSE(settings_restore(&TABLE, "samples = many\n", &run, &line));
+    settings_free(&TABLE, &run);
+}
+
+/* A byte order mark is no part of the text; a file without end is given up. */
+static void test_bytes(void)
 {
     struct run run;
-    CU_ASSERT_TRUE(
-        read_text("seed: 1\nsolver:\n  # tolerance: here\n  tolerance: 1e-3\n", &run, NULL));
-    CU_ASSERT_EQUAL(settings_line(path, "solver.tolerance"), 4);
-    CU_ASSERT_EQUAL(settings_line(path, "solver.cutoff"), 2);
-    CU_ASSERT_EQUAL(settings_line(path, "samples"), 0);
+    char *sentences;
+    CU_ASSERT_TRUE(read_text("\xef\xbb\xbfseed: 5\n", &run, NULL));
+    CU_ASSERT_EQUAL(run.seed, 5);
+    settings_free(&TABLE, &run);
+    settings_start(&TABLE, &run);
+    CU_ASSERT_FALSE(settings_read("/dev/zero", &TABLE, &run, &sentences));
+    free(sentences);
+    FILE *out = fopen(path, "w");
+    CU_ASSERT_PTR_NOT_NULL_FATAL(out);
+    for (size_t i = 0; i < 100000; i++)
+        fputs("# a comment of some forty characters here\n", out);
+    fclose(out);
+    CU_ASSERT_EQUAL(truncate(path, (off_t)2 << 30), 0);
+    CU_ASSERT_FALSE(settings_read(path, &TABLE, &run, &sentences));
+    CU_ASSERT_PTR_NOT_NULL(strstr(sentences, "is longer than 4194304 bytes"));
+    free(sentences);
     settings_free(&TABLE, &run);
 }
 
@@ -423,7 +459,8 @@ int main(void)
         {"options", test_options},
         {"wrong_options", test_wrong_options},
         {"canonical_text_reads_back", test_canonical_text_reads_back},
-        {"line", test_line},
+        {"restore", test_restore},
+        {"bytes", test_bytes},
     };
     snprintf(path, sizeof path, "%s/settings_XXXXXX", check_scratch());
     int file = mkstemp(path);

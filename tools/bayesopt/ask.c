@@ -28,7 +28,7 @@ static const struct setting ROWS[] = {
            .sentence = "create the store for a box, with --upper"),
     OPTION("upper", NUMBERS, upper, .count = offsetof(struct arguments, n_upper),
            .sentence = "the other end of the box"),
-    OPTION("seed", SEED, seed, .otherwise = "1", .given = offsetof(struct arguments, seed_given),
+    OPTION("seed", COUNT, seed, .otherwise = "1", .given = offsetof(struct arguments, seed_given),
            .sentence = "of the new store"),
     OPTION("initial", COUNT, initial, .given = offsetof(struct arguments, initial_given),
            .sentence = "design of the new store; 0: by rule"),

@@ -31,7 +31,7 @@ static const struct setting ROWS[] = {
            .sentence = "of the box, one number per variable; 0 without"),
     OPTION("upper", NUMBERS, upper, .count = offsetof(struct arguments, n_upper),
            .sentence = "of the box, one number per variable; 1 without"),
-    OPTION("seed", SEED, seed, .otherwise = "1", .sentence = "of the random numbers"),
+    OPTION("seed", COUNT, seed, .otherwise = "1", .sentence = "of the random numbers"),
     OPTION("power", NUMBER, power, .most = INFINITY, .open_least = true, .otherwise = "2",
            .sentence = "annealing energy sum 1/dist^X: 2 Audze-Eglais, 50 near maximin"),
     OPTION("output", TEXT, output, .letter = 'o', .sentence = "file, instead of standard output"),

@@ -7,13 +7,13 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdarg.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-/* Of an array in one text; no row has more. */
-enum { MOST_ENTRIES = 64 };
+enum { MOST_ENTRIES = 64 };              /* of an array in one text; no row has more */
+static const off_t MOST_BYTES = 1 << 30; /* of a file that a setting names */
 
 /* The k-th word of a row and what it stands for; NULL after the last. */
 static const char *word_at(const struct setting *row, int k, double *value)
@@ -34,60 +34,59 @@ static bool find_word(const struct setting *row, const char *text, double *value
     for (int k = 0; (word = word_at(row, k, value)) != NULL; k++)
         if (strcmp(word, text) == 0)
             return true;
-    *value = 0;
     return false;
+}
+
+static bool has_range(const struct setting *row)
+{
+    return row->least != 0 || row->most != 0;
 }
 
 static bool inside(const struct setting *row, double value)
 {
-    if (row->least == 0 && row->most == 0)
-        return true;
-    return (row->open_least ? value > row->least : value >= row->least) &&
-           (row->open_most ? value < row->most : value <= row->most);
+    return !has_range(row) || ((row->open_least ? value > row->least : value >= row->least) &&
+                               (row->open_most ? value < row->most : value <= row->most));
 }
 
 static void print_range(const struct setting *row, FILE *out)
 {
-    if (row->least == 0 && row->most == 0)
-        return;
+    const char *least = row->open_least ? ">" : ">=", *most = row->open_most ? "<" : "<=";
     if (isinf(row->most))
-        fprintf(out, " %s %.15g", row->open_least ? ">" : ">=", row->least);
+        fprintf(out, " %s %.15g", least, row->least);
     else if (row->open_least != row->open_most)
-        fprintf(out, " %s %.15g and %s %.15g", row->open_least ? ">" : ">=", row->least,
-                row->open_most ? "<" : "<=", row->most);
+        fprintf(out, " %s %.15g and %s %.15g", least, row->least, most, row->most);
     else if (row->open_least)
         fprintf(out, " between %.15g and %.15g, both excluded", row->least, row->most);
     else
         fprintf(out, " from %.15g to %.15g", row->least, row->most);
 }
 
-void settings_print_expected(const struct setting *row, FILE *out)
+/* What the value of a row may be; NULL: of a section. */
+static void print_expected(const struct setting *row, FILE *out)
 {
-    static const char *const kinds[] = {[SETTING_NUMBER] = "number",
-                                        [SETTING_COUNT] = "whole number",
-                                        [SETTING_SEED] = "whole number",
-                                        [SETTING_INTEGER] = "integer",
-                                        [SETTING_SWITCH] = "true or false",
-                                        [SETTING_TEXT] = "text",
-                                        [SETTING_FILE] = "file",
-                                        [SETTING_NUMBERS] = "number",
-                                        [SETTING_ROWS] = "mappings in a list"};
-    bool many = (row->n_most > 1 && row->type != SETTING_ROWS) || row->type == SETTING_NUMBERS;
-    if (many && row->n_most == row->n_least && row->type != SETTING_NUMBERS)
+    static const char *const kinds[][2] = {
+        [SETTING_NUMBER] = {"a number", "numbers"},
+        [SETTING_COUNT] = {"a whole number", "whole numbers"},
+        [SETTING_INTEGER] = {"an integer", "integers"},
+        [SETTING_SWITCH] = {"true or false", "true or false"},
+        [SETTING_CHOICE] = {"", "of "},
+        [SETTING_TEXT] = {"a text", "texts"},
+        [SETTING_FILE] = {"a file", "files"},
+        [SETTING_NUMBERS] = {"numbers", "numbers"},
+        [SETTING_ROWS] = {"mappings in a list", "mappings in a list"}};
+    const char *word;
+    double value;
+    if (!row) {
+        fputs("a mapping of settings", out);
+        return;
+    }
+    if (row->n_most > 1 && row->n_most == row->n_least)
         fprintf(out, "%zu ", row->n_most);
     else if (row->n_most > 1)
         fprintf(out, "%zu to %zu ", row->n_least, row->n_most);
-    if (row->type == SETTING_CHOICE)
-        fputs(many ? "of " : "", out);
-    else if (many)
-        fprintf(out, "%ss", kinds[row->type]);
-    else if (row->type == SETTING_SWITCH || row->n_most > 1)
-        fputs(kinds[row->type], out);
-    else
-        fprintf(out, "%s %s", row->type == SETTING_INTEGER ? "an" : "a", kinds[row->type]);
-    print_range(row, out);
-    const char *word;
-    double value;
+    fputs(kinds[row->type][row->n_most > 1], out);
+    if (has_range(row))
+        print_range(row, out);
     for (int k = 0; (word = word_at(row, k, &value)) != NULL; k++) {
         const char *before = word_at(row, k + 1, &value) ? ", " : " or ";
         fprintf(out, "%s%s", k == 0 && row->type == SETTING_CHOICE ? "" : before, word);
@@ -100,11 +99,20 @@ static char *resolve(const char *config, const char *path)
     const char *slash = config ? strrchr(config, '/') : NULL;
     size_t folder = slash && *path != '/' ? (size_t)(slash - config) + 1 : 0;
     char *joined = malloc(folder + strlen(path) + 1);
-    if (joined) {
-        memcpy(joined, config ? config : "", folder);
-        strcpy(joined + folder, path);
-    }
+    if (joined)
+        strcpy((char *)memcpy(joined, config ? config : "", folder) + folder, path);
     return joined;
+}
+
+/* NULL, or what is wrong with a file that is to be read. */
+static const char *refuse_file(const char *path)
+{
+    struct stat info;
+    if (stat(path, &info) != 0 || access(path, R_OK) != 0)
+        return strerror(errno);
+    return !S_ISREG(info.st_mode)      ? "no regular file"
+           : info.st_size > MOST_BYTES ? "more than 1 GiB"
+                                       : NULL;
 }
 
 static bool scan_switch(const char *text, bool *value)
@@ -118,140 +126,135 @@ static bool scan_switch(const char *text, bool *value)
     return false;
 }
 
-/* Entry i of the row; false when the text is none of what is expected. */
-static bool store(const struct setting *row, const char *text, size_t i, void *target,
-                  const char *path)
+/* Stores a text as entry i; false when it is none of what is expected. */
+static bool store(const struct setting *row, const char *text, size_t i, void *at, const char *path)
 {
-    char *at = (char *)target + row->offset;
-    double value;
+    double value = 0;
     bool ok = find_word(row, text, &value);
     size_t count = ok ? (size_t)value : 0;
     int integer = ok ? (int)value : 0;
     switch (row->type) {
     case SETTING_NUMBER:
-    case SETTING_NUMBERS:
         ok = ok || (cli_parse_double(text, &value) && inside(row, value));
         if (ok)
-            ((double *)(void *)at)[i] = value;
+            ((double *)at)[i] = value;
         return ok;
     case SETTING_COUNT:
-    case SETTING_SEED:
         ok = ok || (cli_parse_size(text, &count) && inside(row, (double)count));
-        if (ok && row->type == SETTING_COUNT)
-            ((size_t *)(void *)at)[i] = count;
-        else if (ok)
-            ((uint64_t *)(void *)at)[i] = count;
+        if (ok)
+            ((size_t *)at)[i] = count;
         return ok;
     case SETTING_INTEGER:
-        ok = ok || (cli_parse_int(text, &integer) && inside(row, integer));
-        /* fall through */
     case SETTING_CHOICE:
+        ok = ok || (row->type == SETTING_INTEGER && cli_parse_int(text, &integer) &&
+                    inside(row, integer));
         if (ok)
-            ((int *)(void *)at)[i] = integer;
+            ((int *)at)[i] = integer;
         return ok;
     case SETTING_SWITCH:
         if (!scan_switch(text, &ok))
             return false;
         if (row->size == sizeof(int))
-            ((int *)(void *)at)[i] = ok;
+            ((int *)at)[i] = ok;
         else
             ((bool *)at)[i] = ok;
         return true;
-    default: {
-        char *copy = row->type == SETTING_FILE ? resolve(path, text) : strdup(text);
-        free(((char **)(void *)at)[i]);
-        ((char **)(void *)at)[i] = copy;
-        return copy && (row->type != SETTING_FILE || !path || access(copy, R_OK) == 0);
-    }
+    default:
+        free(((char **)at)[i]);
+        ((char **)at)[i] = row->type == SETTING_FILE ? resolve(path, text) : strdup(text);
+        return ((char **)at)[i] != NULL;
     }
 }
 
-static bool store_list(const struct setting *row, size_t n, char *const *texts, void *target,
-                       size_t *bad)
+/* Appends the numbers of a text, "0.2,0.3" or "0.2:0.3:0.05", to the list. */
+static bool store_list(const struct setting *row, const char *text, double **list, size_t *n)
 {
-    double **at = (double **)(void *)((char *)target + row->offset), *all = NULL;
-    size_t total = 0;
-    bool ok = true;
-    for (*bad = 0; ok && *bad < n; *bad += ok) {
-        double *part = NULL, *more = NULL;
-        size_t m = 0;
-        ok = cli_parse_list(texts[*bad], &part, &m) &&
-             (more = realloc(all, (total + m) * sizeof *all)) != NULL;
-        all = more ? more : all;
-        for (size_t i = 0; ok && i < m; i++) {
-            ok = inside(row, part[i]);
-            all[total++] = part[i];
-        }
-        free(part);
+    double *part = NULL, *more;
+    size_t m = 0;
+    bool ok =
+        cli_parse_list(text, &part, &m) && (more = realloc(*list, (*n + m) * sizeof *more)) != NULL;
+    for (size_t i = 0; ok && i < m; i++) {
+        *list = more;
+        more[(*n)++] = part[i];
+        ok = inside(row, part[i]);
     }
-    if (ok) {
-        free(*at);
-        *at = all;
-        *(size_t *)(void *)((char *)target + row->count) = total;
-    } else {
-        free(all);
-    }
+    free(part);
     return ok;
 }
 
-void settings_add(struct settings_source *source, size_t line, const char *format, ...)
+void settings_add(struct settings_source *source, size_t line, const char *key, const char *format,
+                  ...)
 {
-    char text[640];
+    struct complaint *more =
+        realloc(source->complaints, (source->n + 1) * sizeof *source->complaints);
+    char *text = NULL;
+    size_t length, i = source->n;
+    FILE *out = open_memstream(&text, &length);
+    source->complaints = more ? more : source->complaints;
+    if (!out)
+        return;
+    fprintf(out, "%s%s%s%s", source->prefix, *source->prefix && *key ? "." : "", key,
+            *source->prefix || *key ? " " : "");
+    va_list args;
+    va_start(args, format);
+    vfprintf(out, format, args);
+    va_end(args);
+    fclose(out);
+    for (; more && i > 0 && more[i - 1].line > line; i--)
+        more[i] = more[i - 1];
+    if (more)
+        more[i] = (struct complaint){line, text};
+    else
+        free(text);
+    source->n += more != NULL;
+}
+
+void settings_refuse(struct settings_source *source, size_t line, const char *key,
+                     const struct setting *row, const char *format, ...)
+{
+    char text[160], expected[400] = "";
+    FILE *out = fmemopen(expected, sizeof expected, "w");
     va_list args;
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
-    struct complaint *more =
-        realloc(source->complaints, (source->n + 1) * sizeof *source->complaints);
-    char *copy = strdup(text);
-    if (!more || !copy) {
-        free(copy);
-        source->complaints = more ? more : source->complaints;
-        return;
-    }
-    source->complaints = more;
-    size_t i = source->n++;
-    for (; i > 0 && more[i - 1].line > line; i--)
-        more[i] = more[i - 1];
-    more[i] = (struct complaint){line, copy};
-}
-
-static void complain_value(struct settings_source *source, const struct setting *row, size_t line,
-                           const char *name, size_t n, const char *text)
-{
-    int reason = errno;
-    char expected[400] = "";
-    FILE *out = fmemopen(expected, sizeof expected, "w");
     if (out) {
-        settings_print_expected(row, out);
+        print_expected(row, out);
         fclose(out);
     }
-    if (!text)
-        settings_add(source, line, "%s has %zu %s, expected %s", name, n,
-                     n == 1 ? "entry" : "entries", expected);
-    else if (row->type == SETTING_FILE)
-        settings_add(source, line, "%s is '%.100s', which cannot be read: %s", name, text,
-                     strerror(reason));
-    else
-        settings_add(source, line, "%s is '%.100s', expected %s", name, text, expected);
+    settings_add(source, line, key, "%s, expected %s", text, expected);
 }
 
 bool settings_set(struct settings_source *source, const struct setting *row, size_t line,
-                  const char *name, size_t n, char *const *texts, void *target)
+                  const char *key, size_t n, char *const *texts, void *target)
 {
-    double value;
-    size_t bad = 0, room = row->n_most ? row->n_most : 1;
-    bool list = row->type == SETTING_NUMBERS;
-    bool fill = n == 1 && row->n_least > 1 && find_word(row, texts[0], &value);
+    double value, *list = NULL;
+    size_t i = 0, total = 0;
+    char *at = (char *)target + row->offset;
+    const char *wrong = NULL;
+    bool fill = n == 1 && row->n_least > 1 && find_word(row, texts[0], &value), ok = true;
     n = fill ? row->n_least : n;
-    bool fits = list || (n >= row->n_least && n <= room), ok = fits;
-    if (list)
-        ok = store_list(row, n, texts, target, &bad);
-    for (; !list && ok && bad < n; bad += ok)
-        ok = store(row, texts[fill ? 0 : bad], bad, target, source ? source->path : NULL);
+    if (row->type != SETTING_NUMBERS && (n < row->n_least || n > (row->n_most ? row->n_most : 1))) {
+        if (source)
+            settings_refuse(source, line, key, row, "has %zu %s", n, n == 1 ? "entry" : "entries");
+        return false;
+    }
+    for (; ok && i < n; i += ok)
+        ok = row->type == SETTING_NUMBERS
+                 ? store_list(row, texts[i], &list, &total)
+                 : store(row, texts[fill ? 0 : i], i, at, source ? source->path : NULL);
+    if (row->type == SETTING_NUMBERS) {
+        n = total;
+        free(*(double **)(void *)at);
+        *(double **)(void *)at = list;
+    } else if (ok && row->type == SETTING_FILE && source && source->path) {
+        wrong = refuse_file(*(char **)(void *)at);
+    }
     if (!ok && source)
-        complain_value(source, row, line, name, n, fits ? texts[fill ? 0 : bad] : NULL);
-    if (ok && row->count && !list)
+        settings_refuse(source, line, key, row, "is '%.100s'", texts[fill ? 0 : i]);
+    else if (wrong)
+        settings_add(source, line, key, "is '%.100s', which cannot be read: %s", texts[0], wrong);
+    if (row->count)
         *(size_t *)(void *)((char *)target + row->count) = n;
     if (ok && row->given && source)
         *((bool *)target + row->given) = true;
@@ -259,21 +262,18 @@ bool settings_set(struct settings_source *source, const struct setting *row, siz
 }
 
 bool settings_set_text(struct settings_source *source, const struct setting *row, size_t line,
-                       const char *name, const char *text, void *target)
+                       const char *key, const char *text, void *target)
 {
     bool whole = row->type == SETTING_COUNT || row->type == SETTING_INTEGER;
-    char *copy = strdup(text), *texts[MOST_ENTRIES];
-    size_t n = 0;
-    if (!copy)
-        return false;
-    texts[n++] = copy;
-    for (char *at = copy; row->n_most && *at; at++) {
-        if (!strchr(whole ? ",x:" : ",", *at) || n == MOST_ENTRIES)
-            continue;
-        *at = '\0';
-        texts[n++] = at + 1;
+    char *copy = strdup(text), *texts[MOST_ENTRIES] = {copy};
+    size_t n = copy != NULL;
+    for (char *at = copy; at && row->n_most && n < MOST_ENTRIES;) {
+        if ((at = strpbrk(at, whole ? ",x:" : ",")) == NULL)
+            break;
+        *at++ = '\0';
+        texts[n++] = at + strspn(at, " ");
     }
-    bool ok = settings_set(source, row, line, name, n, texts, target);
+    bool ok = n && settings_set(source, row, line, key, n, texts, target);
     free(copy);
     return ok;
 }
@@ -308,52 +308,32 @@ void settings_free(const struct settings *table, void *target)
         settings_free(table->also, (char *)target + table->also_offset);
 }
 
-static void print_number(const struct setting *row, double value, FILE *out)
+/* Entry i of the value at AT, by its word where it has one. */
+static void print_entry(const struct setting *row, const void *at, size_t i, FILE *out)
 {
     const char *word;
-    double meant;
-    for (int k = 0; (word = word_at(row, k, &meant)) != NULL; k++)
-        if (meant == value || (isnan(meant) && isnan(value))) {
-            fputs(word, out);
-            return;
-        }
-    fprintf(out, "%.15g", value);
-}
-
-static void print_entry(const struct setting *row, const char *at, size_t i, FILE *out)
-{
-    switch (row->type) {
-    case SETTING_NUMBER:
-        print_number(row, ((const double *)(const void *)at)[i], out);
-        break;
-    case SETTING_NUMBERS:
-        print_number(row, (*(double *const *)(const void *)at)[i], out);
-        break;
-    case SETTING_COUNT:
-        print_number(row, (double)((const size_t *)(const void *)at)[i], out);
-        break;
-    case SETTING_SEED:
-        fprintf(out, "%llu", (unsigned long long)((const uint64_t *)(const void *)at)[i]);
-        break;
-    case SETTING_INTEGER:
-    case SETTING_CHOICE:
-        print_number(row, ((const int *)(const void *)at)[i], out);
-        break;
-    case SETTING_SWITCH:
-        fputs(
-            (row->size == sizeof(int) ? ((const int *)(const void *)at)[i] : ((const bool *)at)[i])
-                ? "true"
-                : "false",
-            out);
-        break;
-    case SETTING_TEXT:
-    case SETTING_FILE:
-        if (((char *const *)(const void *)at)[i])
-            fputs(((char *const *)(const void *)at)[i], out);
-        break;
-    default:
-        break;
+    double value = NAN, meant;
+    if (row->type >= SETTING_TEXT && row->type <= SETTING_FILE) {
+        fputs(((char *const *)at)[i] ? ((char *const *)at)[i] : "", out);
+        return;
     }
+    if (row->type == SETTING_NUMBER || row->type == SETTING_NUMBERS)
+        value = row->type == SETTING_NUMBER ? ((const double *)at)[i] : (*(double *const *)at)[i];
+    else if (row->type == SETTING_COUNT)
+        value = (double)((const size_t *)at)[i];
+    else if (row->type != SETTING_SWITCH || row->size == sizeof(int))
+        value = ((const int *)at)[i];
+    else
+        value = ((const bool *)at)[i];
+    for (int k = 0; (word = word_at(row, k, &meant)) != NULL; k++)
+        if (meant == value || (isnan(meant) && isnan(value)))
+            break;
+    if (word || row->type == SETTING_SWITCH)
+        fputs(word ? word : value != 0 ? "true" : "false", out);
+    else if (row->type == SETTING_COUNT)
+        fprintf(out, "%zu", ((const size_t *)at)[i]);
+    else
+        fprintf(out, "%.15g", value);
 }
 
 char *settings_value(const struct setting *row, const void *target)
@@ -365,7 +345,7 @@ char *settings_value(const struct setting *row, const void *target)
         return NULL;
     if (row->count)
         n = *(const size_t *)(const void *)((const char *)target + row->count);
-    for (size_t i = 0; i < n; i++) {
+    for (size_t i = 0; i < n && row->type != SETTING_HEADING && row->type != SETTING_ROWS; i++) {
         fputs(i ? ", " : "", out);
         print_entry(row, (const char *)target + row->offset, i, out);
     }
@@ -384,7 +364,7 @@ static bool print_file(const char *path, FILE *out)
         hash = (hash ^ (unsigned char)byte) * UINT64_C(0x100000001b3);
     bool ok = !ferror(file);
     fclose(file);
-    fprintf(out, " %s (%016" PRIx64 ")", slash ? slash + 1 : path, hash);
+    fprintf(out, "%s (%016" PRIx64 ")", slash ? slash + 1 : path, hash);
     return ok;
 }
 
@@ -400,11 +380,13 @@ char *settings_text(const struct settings *table, const void *target)
             continue;
         char *value = settings_value(row, target);
         ok = value != NULL;
-        fprintf(out, "%s =", row->key);
+        fprintf(out, "%s =%s", row->key, ok && *value ? " " : "");
+        for (char *c = value; ok && *c; c++)
+            *c = *c == '\n' ? ' ' : *c;
         if (ok && *value && row->type == SETTING_FILE)
             ok = print_file(value, out);
-        else if (ok && *value)
-            fprintf(out, " %s", value);
+        else if (ok)
+            fputs(value, out);
         fputc('\n', out);
         free(value);
     }
@@ -415,27 +397,25 @@ char *settings_text(const struct settings *table, const void *target)
     return text;
 }
 
-/* What stands for the value in the help. */
-static const char *value_name(const struct setting *row)
+bool settings_restore(const struct settings *table, const char *text, void *target, size_t *line)
 {
-    switch (row->type) {
-    case SETTING_NUMBER:
-        return row->n_most > 1 ? "X,Y,..." : "X";
-    case SETTING_NUMBERS:
-        return "X,Y,...";
-    case SETTING_COUNT:
-    case SETTING_INTEGER:
-    case SETTING_SEED:
-        return row->n_most > 1 ? "N,M,..." : "N";
-    case SETTING_CHOICE:
-        return "NAME";
-    case SETTING_TEXT:
-        return "TEXT";
-    case SETTING_FILE:
-        return "FILE";
-    default:
-        return "";
+    for (*line = 1; *text; ++*line) {
+        size_t length = strcspn(text, "\n"), key = strcspn(text, " =\n"), r = 0;
+        while (r < table->n && !(table->rows[r].key && strlen(table->rows[r].key) == key &&
+                                 strncmp(table->rows[r].key, text, key) == 0))
+            r++;
+        if (r == table->n || strncmp(text + key, " =", 2) != 0)
+            return false;
+        key += text[key + 2] == ' ' ? 3 : 2;
+        char *value = strndup(text + key, length - key);
+        bool ok =
+            value && (!*value || settings_set_text(NULL, &table->rows[r], 0, "", value, target));
+        free(value);
+        if (!ok)
+            return false;
+        text += length + (text[length] == '\n');
     }
+    return true;
 }
 
 enum { HELP_COLUMN = 22, HELP_WIDTH = 96 };
@@ -455,31 +435,44 @@ static void wrap(const char *text, size_t at, FILE *out)
     fputc('\n', out);
 }
 
+/* The sentence of a row, what it may be and what it is. */
+static void print_meaning(const struct setting *row, const void *target, FILE *out)
+{
+    char *value = settings_value(row, target);
+    fputs(row->sentence, out);
+    if (has_range(row) || row->words || row->choice) {
+        fputs("; ", out);
+        print_expected(row, out);
+    }
+    if (value && *value && row->type != SETTING_SWITCH)
+        fprintf(out, " (default %s)", value);
+    free(value);
+}
+
 static void print_help_row(const struct setting *row, const void *target, bool keys, FILE *out)
 {
-    char name[80], meaning[800], *value = settings_value(row, target);
+    static const char *const names[] = {
+        [SETTING_NUMBER] = "X",        [SETTING_COUNT] = "N",   [SETTING_INTEGER] = "N",
+        [SETTING_CHOICE] = "NAME",     [SETTING_TEXT] = "TEXT", [SETTING_FILE] = "FILE",
+        [SETTING_NUMBERS] = "X,Y,...", [SETTING_ROWS] = ""};
+    char name[80], meaning[800];
     FILE *text = fmemopen(meaning, sizeof meaning, "w");
+    if (!text)
+        return;
+    const char *kind = names[row->type] ? names[row->type] : "";
+    print_meaning(row, target, text);
+    fclose(text);
+    if (row->n_most > 1 && row->type < SETTING_CHOICE)
+        kind = row->type == SETTING_NUMBER ? "X,Y,..." : "N,M,...";
     if (keys)
         snprintf(name, sizeof name, "%s", row->key);
     else
         snprintf(name, sizeof name, "%.1s%.1s%s--%s %s", row->letter ? "-" : "", &row->letter,
-                 row->letter ? ", " : "", row->option, value_name(row));
-    if (text && value) {
-        fputs(row->sentence, text);
-        if (row->least != 0 || row->most != 0 || row->words || row->choice) {
-            fputs("; ", text);
-            settings_print_expected(row, text);
-        }
-        if (*value && row->type != SETTING_SWITCH)
-            fprintf(text, " (default %s)", value);
-        fclose(text);
-        int width = fprintf(out, "  %-*s", HELP_COLUMN - 3, name);
-        if (width >= HELP_COLUMN)
-            fprintf(out, "\n%*s", HELP_COLUMN - 1, "");
-        fputc(' ', out);
-        wrap(meaning, HELP_COLUMN, out);
-    }
-    free(value);
+                 row->letter ? ", " : "", row->option, kind);
+    if (fprintf(out, "  %-*s", HELP_COLUMN - 3, name) >= HELP_COLUMN)
+        fprintf(out, "\n%*s", HELP_COLUMN - 1, "");
+    fputc(' ', out);
+    wrap(meaning, HELP_COLUMN, out);
 }
 
 void settings_help(const struct settings *table, const void *target, bool keys, FILE *out)
@@ -496,11 +489,11 @@ void settings_help(const struct settings *table, const void *target, bool keys, 
         settings_help(table->also, (const char *)target + table->also_offset, keys, out);
 }
 
-size_t settings_distance(const char *a, const char *b)
+bool settings_nearer(const char *a, const char *b, size_t *least)
 {
     size_t row[128], n = strlen(b);
     if (n >= sizeof row / sizeof *row)
-        return SIZE_MAX;
+        return false;
     for (size_t j = 0; j <= n; j++)
         row[j] = j;
     for (size_t i = 1; a[i - 1]; i++) {
@@ -513,29 +506,30 @@ size_t settings_distance(const char *a, const char *b)
             row[j] = replace < edit ? replace : edit;
         }
     }
-    return row[n];
+    bool nearer = row[n] < *least;
+    *least = nearer ? row[n] : *least;
+    return nearer;
 }
 
 bool settings_close(struct settings_source *source, char **sentences)
 {
-    bool ok = source->n == 0;
     size_t length;
     FILE *out = sentences ? open_memstream(sentences, &length) : NULL;
     for (size_t i = 0; i < source->n; i++) {
+        const struct complaint *c = &source->complaints[i];
         char place[32] = "";
-        if (source->complaints[i].line)
-            snprintf(place, sizeof place, ":%zu", source->complaints[i].line);
+        if (c->line)
+            snprintf(place, sizeof place, ":%zu", c->line);
         if (out)
-            fprintf(out, "%s%s%s: %s", i ? "\n" : "", source->path, place,
-                    source->complaints[i].text);
-        else if (!source->path)
-            cli_usage("%s", source->complaints[i].text);
+            fprintf(out, "%s%s%s: %s", i ? "\n" : "", source->path, place, c->text);
+        else if (source->path)
+            cli_fail("%s%s: %s", source->path, place, c->text);
         else
-            cli_fail("%s%s: %s", source->path, place, source->complaints[i].text);
-        free(source->complaints[i].text);
+            cli_usage("%s", c->text);
+        free(c->text);
     }
     free(source->complaints);
     if (out)
         fclose(out);
-    return ok;
+    return source->n == 0;
 }

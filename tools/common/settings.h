@@ -13,13 +13,12 @@
 enum setting_type {
     SETTING_HEADING, /* nothing: the sentence stands above the rows that follow in the help */
     SETTING_NUMBER,  /* double */
-    SETTING_COUNT,   /* size_t */
-    SETTING_SEED,    /* uint64_t */
+    SETTING_COUNT,   /* size_t or uint64_t */
     SETTING_INTEGER, /* int */
     SETTING_SWITCH,  /* bool, or int when size says so; the options --x and --no-x take no value */
     SETTING_CHOICE,  /* int or an enumeration, one of the words */
     SETTING_TEXT,    /* char *, owned; settings_free() */
-    SETTING_FILE,    /* the same; in a file relative to its folder, and it must be readable */
+    SETTING_FILE,    /* the same; in a file relative to its folder; a regular file up to 1 GiB */
     SETTING_NUMBERS, /* double *, owned, and `count`: as many as there are, also a:b:step */
     SETTING_ROWS     /* element *, owned, and `count`: a list of mappings, read by `table` */
 };
@@ -95,14 +94,15 @@ int settings_options(int argc, char **argv, const struct settings *table, void *
  */
 __attribute__((format(printf, 3, 4))) void
 settings_complain(struct settings_source *source, const char *key, const char *format, ...);
-/* Line of a key of a file, "objective.command"; 0 when it is not there. */
-size_t settings_line(const char *path, const char *key);
 
 /* The value of a row as a file would have it; the caller frees it. */
 char *settings_value(const struct setting *row, const void *target);
 /* "key = value" lines of all rows with a key, a file as its name and the digest of what is in it;
  * lists of mappings are left out. The caller frees it; NULL when a file cannot be read. */
 char *settings_text(const struct settings *table, const void *target);
+/* Reads such a text over what stands in the target; a file becomes its name with the digest. False
+ * at a line that no row reads, which *line (from 1) tells. */
+bool settings_restore(const struct settings *table, const char *text, void *target, size_t *line);
 /* The rows of the options, or of the keys, with sentence, range and default. */
 void settings_help(const struct settings *table, const void *target, bool keys, FILE *out);
 

@@ -12,27 +12,31 @@ struct settings_source {
         size_t line; /* 0: none */
         char *text;
     } * complaints;
-    void *document;               /* yaml_document_t */
-    const void *node;             /* the mapping being read, yaml_node_t */
-    const char *prefix;           /* its name, "variables.2", or "" */
-    const struct settings *table; /* of a command line */
+    void *document;     /* yaml_document_t */
+    const void *node;   /* the mapping being read, yaml_node_t */
+    const char *prefix; /* its name, "variables.2", or "" */
 };
 
-__attribute__((format(printf, 3, 4))) void settings_add(struct settings_source *source, size_t line,
-                                                        const char *format, ...);
-/* Hands the complaints over, joined, or prints them through say; true when there were none. */
+/* KEY of the mapping being read, or "", then the text. */
+__attribute__((format(printf, 4, 5))) void settings_add(struct settings_source *source, size_t line,
+                                                        const char *key, const char *format, ...);
+/* The same, ended by what the row expects; NULL: a section. */
+__attribute__((format(printf, 5, 6))) void settings_refuse(struct settings_source *source,
+                                                           size_t line, const char *key,
+                                                           const struct setting *row,
+                                                           const char *format, ...);
+/* Hands the complaints over, joined, or prints them; true when there were none. */
 bool settings_close(struct settings_source *source, char **sentences);
 
-/* Stores n texts as the value of a row. On failure complains by NAME, unless source is NULL. */
+/* Stores n texts as the value of a row. On failure complains by the key, unless source is NULL. */
 bool settings_set(struct settings_source *source, const struct setting *row, size_t line,
-                  const char *name, size_t n, char *const *texts, void *target);
+                  const char *key, size_t n, char *const *texts, void *target);
 /* The same for one text with entries separated by commas (of whole numbers also by x or :). */
 bool settings_set_text(struct settings_source *source, const struct setting *row, size_t line,
-                       const char *name, const char *text, void *target);
+                       const char *key, const char *text, void *target);
 
-void settings_print_expected(const struct setting *row, FILE *out);
-
-/* Edits from one word to the other: letters inserted, dropped or replaced. */
-size_t settings_distance(const char *a, const char *b);
+/* Whether so few letters inserted, dropped or replaced make one word of the other: fewer than
+ * *least, which becomes their number. Begin with a third of the letters. */
+bool settings_nearer(const char *a, const char *b, size_t *least);
 
 #endif

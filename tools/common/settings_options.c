@@ -17,163 +17,126 @@ static const struct setting STANDARD[] = {
 };
 static const struct settings STANDARDS = {.n = 3, .rows = STANDARD};
 
-static bool is_operand(const struct setting *row)
-{
-    return row->option && isupper((unsigned char)*row->option);
-}
+enum { MOST = 200 };
 
-static const char *without_no(const char *name, bool *no)
-{
-    *no = strncmp(name, "no-", 3) == 0;
-    return name + (*no ? 3 : 0);
-}
-
-/* Where an option leads: its row and what the row's offset counts from. */
-struct found {
-    const struct setting *row;
-    char *target;
-    size_t candidates; /* rows whose name begins like that; an exact one is the only */
-    bool no;           /* given as --no-x */
-};
-
-static void find_option(const struct settings *table, void *target, const char *name,
-                        struct found *found)
-{
-    for (size_t r = 0; r < table->n; r++) {
-        const struct setting *row = &table->rows[r];
-        if (!row->option || is_operand(row))
-            continue;
-        bool no, own_no = false, one = row->letter && name[0] == row->letter && !name[1];
-        const char *own = row->option, *given = name;
-        if (row->type == SETTING_SWITCH) {
-            own = without_no(row->option, &own_no);
-            given = without_no(name, &no);
-        } else {
-            no = false;
-        }
-        one = one || strcmp(own, given) == 0;
-        if (!one && strncmp(own, given, strlen(given)) != 0)
-            continue;
-        *found = (struct found){row, target, one ? 1 : found->candidates + 1, no};
-        if (one)
-            return;
-    }
-    if (table->also)
-        find_option(table->also, (char *)target + table->also_offset, name, found);
-}
-
-static const char *nearest_option(const struct settings *table, const char *name, const char *best,
-                                  size_t least)
-{
-    for (size_t r = 0; r < table->n; r++) {
-        const struct setting *row = &table->rows[r];
-        size_t d = row->option && !is_operand(row) ? settings_distance(name, row->option) : least;
-        if (d < least) {
-            least = d;
-            best = row->option;
-        }
-    }
-    return table->also ? nearest_option(table->also, name, best, least) : best;
-}
-
-/* A command line as far as it is read. */
+/* A command line as far as it is read, and the rows it can set. */
 struct command_line {
     struct settings_source *source;
-    const struct settings *table;
-    void *target;
     int argc, at;
-    char **argv;
-    bool operands_only; /* after "--" */
-    size_t n_words, n_operands, n_given;
-    char **words;                 /* NULL: none are expected */
-    const struct setting **given; /* rows that were */
-    int threads;
+    char **argv, **words; /* words NULL: none are expected */
+    size_t n_words, n;
+    struct place {
+        const struct setting *row;
+        char *target; /* of its offset */
+        bool given;
+    } places[MOST];
 };
 
-static void read_option(struct command_line *line, const char *name, const char *value)
+static bool is_operand(const struct setting *row)
 {
-    struct found found = {.row = NULL};
-    find_option(line->table, line->target, name, &found);
-    if (found.candidates != 1 || strcmp(found.row->option, name) != 0) {
-        struct found standard = {.row = NULL};
-        find_option(&STANDARDS, &line->threads, name, &standard);
-        if (standard.candidates == 1 && (found.candidates != 1))
-            found = standard;
+    return isupper((unsigned char)*row->option);
+}
+
+static void add_rows(struct command_line *line, const struct settings *table, void *target)
+{
+    for (size_t r = 0; r < table->n && line->n < MOST; r++)
+        if (table->rows[r].option && table->rows[r].type != SETTING_HEADING)
+            line->places[line->n++] = (struct place){&table->rows[r], target, false};
+    if (table->also)
+        add_rows(line, table->also, (char *)target + table->also_offset);
+}
+
+static const char *without_no(const char *name)
+{
+    return name + (strncmp(name, "no-", 3) == 0 ? 3 : 0);
+}
+
+/* The option of a name, of its letter, or the only one that begins like that; NULL: there is none.
+ */
+static struct place *find_option(struct command_line *line, const char *name)
+{
+    struct place *found = NULL;
+    size_t candidates = 0;
+    for (size_t k = 0; k < line->n; k++) {
+        const struct setting *row = line->places[k].row;
+        bool turns = row->type == SETTING_SWITCH,
+             letter = row->letter && row->letter == name[0] && !name[1];
+        const char *own = turns ? without_no(row->option) : row->option;
+        const char *given = turns ? without_no(name) : name;
+        if (letter || strcmp(own, given) == 0)
+            return &line->places[k];
+        if (is_operand(row) || strncmp(own, given, strlen(given)) != 0)
+            continue;
+        found = &line->places[k];
+        candidates++;
     }
-    if (found.candidates != 1) {
-        const char *near = nearest_option(line->table, name, NULL, 1 + strlen(name) / 3);
-        settings_add(line->source, 0, "there is no option '--%s'%s%s%s", name,
-                     near ? "; did you mean '--" : "", near ? near : "", near ? "'?" : "");
-        return;
-    }
+    return candidates == 1 ? found : NULL;
+}
+
+static void complain_unknown(struct command_line *line, const char *name)
+{
+    const char *near = "";
+    size_t least = 1 + strlen(name) / 3;
+    for (size_t k = 0; k < line->n; k++)
+        if (!is_operand(line->places[k].row) &&
+            settings_nearer(name, line->places[k].row->option, &least))
+            near = line->places[k].row->option;
+    settings_add(line->source, 0, "", "there is no option '--%s'%s%s%s", name,
+                 *near ? "; did you mean '--" : "", near, *near ? "'?" : "");
+}
+
+static void read_option(struct command_line *line, const char *name, char *value)
+{
     char shown[80];
-    snprintf(shown, sizeof shown, "--%s", found.row->option);
-    line->given[line->n_given++] = found.row;
-    if (found.row->type == SETTING_SWITCH) {
-        if (value)
-            settings_add(line->source, 0, "%s takes no value, '%s' is one", shown, value);
-        settings_set_text(line->source, found.row, 0, shown, found.no ? "false" : "true",
-                          found.target);
+    struct place *place = find_option(line, name);
+    if (!place) {
+        complain_unknown(line, name);
         return;
     }
-    if (!value && line->at + 1 < line->argc)
+    place->given = true;
+    snprintf(shown, sizeof shown, "--%s", place->row->option);
+    if (place->row->type == SETTING_SWITCH && value)
+        settings_add(line->source, 0, shown, "takes no value, '%s' is one", value);
+    else if (place->row->type == SETTING_SWITCH)
+        value = without_no(name) == name ? "true" : "false";
+    else if (!value && line->at + 1 < line->argc)
         value = line->argv[++line->at];
     if (value)
-        settings_set_text(line->source, found.row, 0, shown, value, found.target);
+        settings_set_text(line->source, place->row, 0, shown, value, place->target);
     else
-        settings_add(line->source, 0, "%s needs a value", shown);
+        settings_add(line->source, 0, shown, "needs a value");
 }
 
-static const struct setting *operand_row(const struct settings *table, size_t k)
-{
-    for (size_t r = 0; r < table->n; r++)
-        if (is_operand(&table->rows[r]) && k-- == 0)
-            return &table->rows[r];
-    return NULL;
-}
-
+/* A word without dashes: the next operand, or one of those beyond. */
 static void read_word(struct command_line *line, char *word)
 {
-    const struct setting *row = operand_row(line->table, line->n_operands);
-    if (row) {
-        line->n_operands++;
-        line->given[line->n_given++] = row;
-        settings_set_text(line->source, row, 0, row->option, word, line->target);
-    } else if (line->words) {
-        line->words[line->n_words++] = word;
-    } else {
-        settings_add(line->source, 0, "'%.100s' is a word too many", word);
+    for (size_t k = 0; k < line->n; k++) {
+        struct place *place = &line->places[k];
+        if (!is_operand(place->row) || place->given)
+            continue;
+        place->given = true;
+        settings_set_text(line->source, place->row, 0, place->row->option, word, place->target);
+        return;
     }
+    if (line->words)
+        line->words[line->n_words++] = word;
+    else
+        settings_add(line->source, 0, "", "'%.100s' is a word too many", word);
 }
 
-static void read_argument(struct command_line *line)
+static void read_argument(struct command_line *line, bool *only_words)
 {
-    char *word = line->argv[line->at], *equals = strchr(word, '=');
+    char *word = line->argv[line->at], *equals = strchr(word, '='), name[80];
     double number;
-    if (line->operands_only || *word != '-' || !word[1] || cli_parse_double(word, &number)) {
+    if (*only_words || *word != '-' || !word[1] || cli_parse_double(word, &number)) {
         read_word(line, word);
     } else if (strcmp(word, "--") == 0) {
-        line->operands_only = true;
+        *only_words = true;
     } else if (word[1] == '-') {
-        char name[80];
         snprintf(name, sizeof name, "%.*s", equals ? (int)(equals - word) - 2 : 79, word + 2);
         read_option(line, name, equals ? equals + 1 : NULL);
     } else {
-        char name[2] = {word[1]};
-        read_option(line, name, word[2] ? word + 2 : NULL);
-    }
-}
-
-static void check_required(struct command_line *line)
-{
-    for (size_t r = 0; r < line->table->n; r++) {
-        const struct setting *row = &line->table->rows[r];
-        bool missing = row->required && row->option && !row->key;
-        for (size_t k = 0; k < line->n_given && missing; k++)
-            missing = line->given[k] != row;
-        if (missing)
-            settings_add(line->source, 0, "%s%s is missing: %s", is_operand(row) ? "" : "--",
-                         row->option, row->sentence);
+        read_option(line, (char[2]){word[1]}, word[2] ? word + 2 : NULL);
     }
 }
 
@@ -197,32 +160,31 @@ static int print_help(const struct settings *table, const void *target)
 int settings_options(int argc, char **argv, const struct settings *table, void *target,
                      size_t *n_words, char **words)
 {
-    struct settings_source source = {.table = table, .prefix = ""};
-    struct command_line line = {.source = &source,
-                                .table = table,
-                                .target = target,
-                                .argc = argc,
-                                .argv = argv,
-                                .words = words,
-                                .given = calloc((size_t)argc + 1, sizeof *line.given)};
-    if (!line.given)
-        return cli_fail("out of memory");
-    int code = -1;
-    for (int i = 1; i < argc && code < 0 && strcmp(argv[i], "--") != 0; i++)
+    int threads = 0;
+    bool only_words = false;
+    struct settings_source source = {.prefix = ""};
+    struct command_line line = {
+        .source = &source, .argc = argc, .argv = argv, .words = words, .at = 1};
+    for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++)
         if (strcmp(argv[i], "--help") == 0)
-            code = print_help(table, target);
+            return print_help(table, target);
         else if (strcmp(argv[i], "--version") == 0)
-            code = cli_version();
-    for (line.at = 1; line.at < argc && code < 0; line.at++)
-        read_argument(&line);
-    if (code < 0)
-        check_required(&line);
-    if (code < 0 && !source.n && table->check)
+            return cli_version();
+    add_rows(&line, table, target);
+    add_rows(&line, &STANDARDS, &threads);
+    for (; line.at < argc; line.at++)
+        read_argument(&line, &only_words);
+    for (size_t k = 0; k < line.n; k++) {
+        const struct place *place = &line.places[k];
+        if (place->row->required && !place->row->key && !place->given)
+            settings_add(&source, 0, "", "%s%s is missing: %s", is_operand(place->row) ? "" : "--",
+                         place->row->option, place->row->sentence);
+    }
+    if (!source.n && table->check)
         table->check(&source, target);
-    if (line.threads > 0)
-        cli_set_threads(line.threads);
+    if (threads > 0)
+        cli_set_threads(threads);
     if (n_words)
         *n_words = line.n_words;
-    free(line.given);
-    return settings_close(&source, NULL) ? code : CLI_USAGE;
+    return settings_close(&source, NULL) ? -1 : CLI_USAGE;
 }

@@ -1,4 +1,3 @@
-#include "cli.h"
 #include "settings_internal.h"
 
 #include <errno.h>
@@ -6,6 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <yaml.h>
+
+/* A file of settings is written by hand. */
+enum { MOST_BYTES = 4 << 20 };
 
 /* libyaml's phrases are about its states; ours about what to mend. */
 static const char *const SYNTAX[][2] = {
@@ -24,44 +26,58 @@ static const char *const SYNTAX[][2] = {
     {"duplicate", "an '&' with a name that is taken"},
 };
 
-static void complain_syntax(struct settings_source *source, const yaml_parser_t *parser)
+struct input {
+    FILE *stream;
+    size_t left;
+};
+
+static int read_bytes(void *user_data, unsigned char *buffer, size_t size, size_t *n)
+{
+    struct input *input = user_data;
+    *n = fread(buffer, 1, size < input->left ? size : input->left, input->stream);
+    input->left -= *n;
+    return input->left > 0 && !ferror(input->stream);
+}
+
+static void complain_syntax(struct settings_source *source, const yaml_parser_t *parser,
+                            const struct input *input)
 {
     const char *said = "something that is not YAML", *problem = parser->problem;
-    if (parser->error == YAML_READER_ERROR) {
-        settings_add(source, 0, "holds bytes that are not UTF-8 text, from byte %zu on",
-                     parser->problem_offset);
-        return;
-    }
-    if (parser->error == YAML_MEMORY_ERROR)
-        said = "more than the memory can hold";
     for (size_t i = 0; problem && i < sizeof SYNTAX / sizeof *SYNTAX; i++)
         if (strstr(problem, SYNTAX[i][0]))
             said = SYNTAX[i][1];
-    settings_add(source, parser->problem_mark.line + 1, "has %s (column %zu)", said,
-                 parser->problem_mark.column + 1);
+    if (ferror(input->stream))
+        settings_add(source, 0, "", "%s", strerror(errno));
+    else if (!input->left)
+        settings_add(source, 0, "", "is longer than %d bytes, and no file of settings",
+                     (int)MOST_BYTES);
+    else if (parser->error == YAML_READER_ERROR)
+        settings_add(source, 0, "", "holds bytes that are not UTF-8 text, from byte %zu on",
+                     parser->problem_offset);
+    else if (parser->error == YAML_MEMORY_ERROR)
+        settings_add(source, 0, "", "out of memory");
+    else
+        settings_add(source, parser->problem_mark.line + 1, "", "has %s (column %zu)", said,
+                     parser->problem_mark.column + 1);
 }
 
 /* False after a complaint; the document is then empty. */
 static bool load(struct settings_source *source, yaml_document_t *document)
 {
     yaml_parser_t parser;
-    FILE *stream = fopen(source->path, "rb");
-    int first = stream ? fgetc(stream) : EOF;
-    if (!stream || (first == EOF && ferror(stream)) || !yaml_parser_initialize(&parser)) {
-        settings_add(source, 0, "%s", strerror(errno));
-        if (stream)
-            fclose(stream);
+    struct input input = {fopen(source->path, "rb"), MOST_BYTES};
+    if (!input.stream || !yaml_parser_initialize(&parser)) {
+        settings_add(source, 0, "", "%s", strerror(errno));
         return false;
     }
-    rewind(stream);
-    yaml_parser_set_input_file(&parser, stream);
+    yaml_parser_set_input(&parser, read_bytes, &input);
     bool ok = yaml_parser_load(&parser, document);
     if (!ok)
-        complain_syntax(source, &parser);
+        complain_syntax(source, &parser, &input);
     else if (!yaml_document_get_root_node(document))
-        settings_add(source, 0, "is empty");
+        settings_add(source, 0, "", "is empty");
     yaml_parser_delete(&parser);
-    fclose(stream);
+    fclose(input.stream);
     return ok;
 }
 
@@ -106,158 +122,120 @@ static const yaml_node_t *find(struct settings_source *source, const yaml_node_t
     return NULL;
 }
 
-static const char *form(const yaml_node_t *node)
-{
-    return node->type == YAML_MAPPING_NODE ? "mapping" : "list";
-}
-
+/* A list or a mapping stands where something else is expected, or a text where one of them is. */
 static void complain_form(struct settings_source *source, const yaml_node_t *node, size_t line,
-                          const char *name, const struct setting *row)
+                          const char *key, const struct setting *row)
 {
-    char expected[400] = "a mapping of settings";
-    FILE *out = row ? fmemopen(expected, sizeof expected, "w") : NULL;
-    if (out) {
-        settings_print_expected(row, out);
-        fclose(out);
-    }
-    if (scalar(node))
-        settings_add(source, line, "%s is '%.100s', expected %s", name, scalar(node), expected);
-    else
-        settings_add(source, line, "%s is a %s, expected %s", name, form(node), expected);
+    static const char *const forms[] = {
+        [YAML_MAPPING_NODE] = "mapping", [YAML_SEQUENCE_NODE] = "list"};
+    bool text = scalar(node) != NULL;
+    settings_refuse(source, line, key, row, text ? "is '%.100s'" : "is a %s",
+                    text ? scalar(node) : forms[node->type]);
 }
 
 static void read_table(struct settings_source *source, const struct settings *table,
                        const yaml_node_t *node, const char *prefix, void *target);
 
 static void read_rows(struct settings_source *source, const struct setting *row,
-                      const yaml_node_t *node, size_t line, const char *name, char *target)
+                      const yaml_node_t *node, const char *key, char *target)
 {
-    char element[380], **at = (char **)(void *)(target + row->offset);
-    if (node->type != YAML_SEQUENCE_NODE) {
-        complain_form(source, node, line, name, row);
-        return;
-    }
-    size_t n = (size_t)(node->data.sequence.items.top - node->data.sequence.items.start);
-    if (n < row->n_least || (row->n_most && n > row->n_most))
-        settings_add(source, line, "%s has %zu entries, expected %zu to %zu", name, n, row->n_least,
-                     row->n_most);
+    char name[380], **at = (char **)(void *)(target + row->offset);
+    const yaml_node_item_t *items = node->data.sequence.items.start;
+    size_t n = (size_t)(node->data.sequence.items.top - items);
     *at = calloc(n + 1, row->size);
     *(size_t *)(void *)(target + row->count) = *at ? n : 0;
     for (size_t i = 0; *at && i < n; i++) {
-        const yaml_node_t *entry = node_at(source, node->data.sequence.items.start[i]);
-        snprintf(element, sizeof element, "%s.%zu", name, i + 1);
+        const yaml_node_t *entry = node_at(source, items[i]);
+        snprintf(name, sizeof name, "%s%s%s.%zu", source->prefix, *source->prefix ? "." : "", key,
+                 i + 1);
         settings_start(row->table, *at + i * row->size);
-        if (entry->type == YAML_MAPPING_NODE)
-            read_table(source, row->table, entry, element, *at + i * row->size);
-        else
-            complain_form(source, entry, line_of(entry), element, NULL);
+        read_table(source, row->table, entry, name, *at + i * row->size);
     }
 }
 
 static void read_value(struct settings_source *source, const struct setting *row,
-                       const yaml_node_t *node, size_t line, const char *name, void *target)
+                       const yaml_node_t *node, size_t line, void *target)
 {
-    bool many = row->n_most || row->type == SETTING_NUMBERS;
+    bool list = node->type == YAML_SEQUENCE_NODE, rows = row->type == SETTING_ROWS;
+    bool many = row->n_most || row->type == SETTING_NUMBERS || rows, ok = true;
     if (is_null(node))
         return;
-    if (row->type == SETTING_ROWS) {
-        read_rows(source, row, node, line, name, target);
+    if (list ? !many : rows || !scalar(node)) {
+        complain_form(source, node, line, row->key, row);
         return;
     }
-    if (node->type == YAML_MAPPING_NODE || (node->type == YAML_SEQUENCE_NODE && !many)) {
-        complain_form(source, node, line, name, row);
-        return;
-    }
-    char *one = (char *)node->data.scalar.value, **texts = &one;
-    size_t n = 1;
-    if (node->type == YAML_SEQUENCE_NODE) {
-        n = (size_t)(node->data.sequence.items.top - node->data.sequence.items.start);
-        texts = calloc(n + 1, sizeof *texts);
-    }
-    for (size_t i = 0; texts && texts != &one && i < n; i++) {
-        const yaml_node_t *entry = node_at(source, node->data.sequence.items.start[i]);
-        texts[i] = (char *)(scalar(entry) ? scalar(entry) : form(entry));
-    }
-    if (texts)
-        settings_set(source, row, line, name, n, texts, target);
-    if (texts != &one)
+    const yaml_node_item_t *items = list ? node->data.sequence.items.start : NULL;
+    size_t n = list ? (size_t)(node->data.sequence.items.top - items) : 1;
+    if (list && row->n_most && (n < row->n_least || n > row->n_most)) {
+        settings_refuse(source, line, row->key, row, "has %zu %s", n, n == 1 ? "entry" : "entries");
+    } else if (rows) {
+        read_rows(source, row, node, row->key, target);
+    } else {
+        char **texts = calloc(n + 1, sizeof *texts);
+        for (size_t i = 0; texts && ok && i < n; i++) {
+            const yaml_node_t *entry = list ? node_at(source, items[i]) : node;
+            ok = (texts[i] = (char *)scalar(entry)) != NULL;
+            if (!ok)
+                complain_form(source, entry, line_of(entry), row->key, row);
+        }
+        if (texts && ok)
+            settings_set(source, row, line, row->key, n, texts, target);
         free(texts);
+    }
 }
 
-/* The nearest key, or section of keys, when it is near: a third of the letters may differ. */
-static bool nearest(const struct settings *table, const char *key, char best[80])
+/* The nearest key, or section of keys, when it is near. */
+static void complain_unknown(struct settings_source *source, const struct settings *table,
+                             const char *key, size_t line)
 {
+    char near[80] = "", name[80];
     size_t least = 1 + strlen(key) / 3, dots = 0;
     for (const char *c = key; *c; c++)
         dots += *c == '.';
-    *best = '\0';
     for (size_t r = 0; r < table->n; r++) {
-        const char *known = table->rows[r].key, *end = known;
-        char name[80];
+        const char *known = table->rows[r].key ? table->rows[r].key : "", *end = known;
         for (size_t k = 0; end && k <= dots; k++)
             end = strchr(end + (k > 0), '.');
-        snprintf(name, sizeof name, "%.*s", end ? (int)(end - known) : 79, known ? known : "");
-        size_t d = settings_distance(key, name);
-        if (d < least) {
-            least = d;
-            strcpy(best, name);
-        }
+        snprintf(name, sizeof name, "%.*s", end ? (int)(end - known) : 79, known);
+        if (settings_nearer(key, name, &least))
+            strcpy(near, name);
     }
-    return *best;
+    settings_add(source, line, key, "is no setting%s%s%s", *near ? "; did you mean '" : "", near,
+                 *near ? "'?" : "");
 }
 
-/* One key of a mapping: a setting, a section of settings, or a mistake. */
-static void read_pair(struct settings_source *source, const struct settings *table,
-                      const yaml_node_t *value, size_t line, const char *key, void *target);
-
+/* Each key is a setting, a section of settings, or a mistake. */
 static void read_mapping(struct settings_source *source, const struct settings *table,
                          const yaml_node_t *node, const char *section, void *target)
 {
-    yaml_node_pair_t *first = node->data.mapping.pairs.start;
-    for (yaml_node_pair_t *p = first; p < node->data.mapping.pairs.top; p++) {
-        const yaml_node_t *key = node_at(source, p->key);
+    for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top;
+         p++) {
+        const yaml_node_t *key = node_at(source, p->key), *value = node_at(source, p->value);
         char full[160];
-        size_t line = line_of(key), before;
-        if (!scalar(key) || strchr(scalar(key), '.')) {
-            settings_add(source, line, "'%.100s' is no key; sections are mappings in mappings",
-                         scalar(key) ? scalar(key) : form(key));
+        size_t line = line_of(key), before, r = 0;
+        const char *name = scalar(key), *known = NULL;
+        if (!name || strchr(name, '.')) {
+            settings_add(source, line, name ? name : "a list or mapping",
+                         "is no key; sections are mappings in mappings");
             continue;
         }
-        snprintf(full, sizeof full, "%s%s%s", section, *section ? "." : "", scalar(key));
-        if (find(source, node, scalar(key), &before) != node_at(source, p->value))
-            settings_add(source, line, "%s%s%s is given twice, first on line %zu", source->prefix,
-                         *source->prefix ? "." : "", full, before);
-        else
-            read_pair(source, table, node_at(source, p->value), line, full, target);
-    }
-}
-
-static void read_pair(struct settings_source *source, const struct settings *table,
-                      const yaml_node_t *value, size_t line, const char *key, void *target)
-{
-    size_t length = strlen(key);
-    char name[340];
-    snprintf(name, sizeof name, "%s%s%s", source->prefix, *source->prefix ? "." : "", key);
-    for (size_t r = 0; r < table->n; r++) {
-        const char *known = table->rows[r].key;
-        if (!known || strncmp(known, key, length) != 0)
-            continue;
-        if (!known[length]) {
-            read_value(source, &table->rows[r], value, line, name, target);
-            return;
-        }
-        if (known[length] != '.')
-            continue;
-        if (value->type == YAML_MAPPING_NODE)
-            read_mapping(source, table, value, key, target);
+        size_t n =
+            (size_t)snprintf(full, sizeof full, "%s%s%s", section, *section ? "." : "", name);
+        for (; r < table->n; r++)
+            if ((known = table->rows[r].key) && strncmp(known, full, n) == 0 &&
+                (!known[n] || known[n] == '.'))
+                break;
+        if (find(source, node, name, &before) != value)
+            settings_add(source, line, full, "is given twice, first on line %zu", before);
+        else if (r == table->n)
+            complain_unknown(source, table, full, line);
+        else if (!known[n])
+            read_value(source, &table->rows[r], value, line, target);
+        else if (value->type == YAML_MAPPING_NODE)
+            read_mapping(source, table, value, full, target);
         else if (!is_null(value))
-            complain_form(source, value, line, name, NULL);
-        return;
+            complain_form(source, value, line, full, NULL);
     }
-    char near[80];
-    bool found = nearest(table, key, near);
-    settings_add(source, line, "there is no setting '%s'%s%s%s", name,
-                 found ? "; did you mean '" : "", near, found ? "'?" : "");
 }
 
 static void read_table(struct settings_source *source, const struct settings *table,
@@ -267,14 +245,17 @@ static void read_table(struct settings_source *source, const struct settings *ta
     size_t line = line_of(node);
     source->node = node;
     source->prefix = prefix;
-    read_mapping(source, table, node, "", target);
-    for (size_t r = 0; r < table->n; r++) {
+    if (node->type == YAML_MAPPING_NODE)
+        read_mapping(source, table, node, "", target);
+    else
+        complain_form(source, node, line, "", NULL);
+    for (size_t r = 0; node->type == YAML_MAPPING_NODE && r < table->n; r++) {
         const struct setting *row = &table->rows[r];
         const yaml_node_t *value =
             row->required && row->key ? find(source, node, row->key, &line) : node;
         if (!value || is_null(value))
-            settings_add(source, *prefix ? line_of(node) : 0, "%s%s%s is missing: %s", prefix,
-                         *prefix ? "." : "", row->key, row->sentence);
+            settings_add(source, *prefix ? line_of(node) : 0, row->key, "is missing: %s",
+                         row->sentence);
     }
     if (table->check && source->n == outer.n)
         table->check(source, target);
@@ -285,51 +266,29 @@ static void read_table(struct settings_source *source, const struct settings *ta
 void settings_complain(struct settings_source *source, const char *key, const char *format, ...)
 {
     char text[512];
+    size_t line = line_of(source->node);
     va_list args;
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
-    if (!source->path) {
-        for (size_t r = 0; r < source->table->n; r++) {
-            const struct setting *row = &source->table->rows[r];
-            if (row->key && row->option && strcmp(row->key, key) == 0)
-                key = row->option;
-        }
-        settings_add(source, 0, "--%s %s", key, text);
-        return;
-    }
-    size_t line = line_of(source->node);
-    find(source, source->node, key, &line);
-    settings_add(source, line, "%s%s%s%s%s", source->prefix, *source->prefix && *key ? "." : "",
-                 key, *key || *source->prefix ? " " : "", text);
+    const char *dot = strrchr(key, '.');
+    if (source->path)
+        find(source, source->node, key, &line);
+    if (source->path)
+        settings_add(source, line, key, "%s", text);
+    else
+        settings_add(source, 0, "", "--%s %s", dot ? dot + 1 : key, text);
 }
 
 bool settings_read(const char *path, const struct settings *table, void *target, char **sentences)
 {
     yaml_document_t document;
     struct settings_source source = {.path = path, .document = &document, .prefix = ""};
-    if (!load(&source, &document))
-        return settings_close(&source, sentences);
-    const yaml_node_t *root = yaml_document_get_root_node(&document);
-    if (root && root->type == YAML_MAPPING_NODE)
-        read_table(&source, table, root, "", target);
-    else if (root)
-        settings_add(&source, line_of(root), "expected a mapping of settings, 'key: value'");
-    yaml_document_delete(&document);
-    return settings_close(&source, sentences);
-}
-
-size_t settings_line(const char *path, const char *key)
-{
-    yaml_document_t document;
-    struct settings_source source = {.path = path, .document = &document, .prefix = ""};
-    size_t line = 0;
     if (load(&source, &document)) {
-        find(&source, yaml_document_get_root_node(&document), key, &line);
+        const yaml_node_t *root = yaml_document_get_root_node(&document);
+        if (root)
+            read_table(&source, table, root, "", target);
         yaml_document_delete(&document);
     }
-    for (size_t i = 0; i < source.n; i++)
-        free(source.complaints[i].text);
-    free(source.complaints);
-    return line;
+    return settings_close(&source, sentences);
 }
