@@ -8,6 +8,7 @@
 #include <igabem/formulation.h>
 #include <igabem/hull.h>
 #include <igabem/kelvin.h>
+#include <igabem/residual.h>
 #include <igabem/solve.h>
 #include <igabem/status.h>
 
