@@ -1,5 +1,6 @@
 /* Settings by a table: files that are right and files that are wrong in every way, command lines,
  * canonical text and help. */
+#include "capture.h"
 #include "check.h"
 #include "settings.h"
 
@@ -165,31 +166,39 @@ static const struct setting ROWS[] = {
 };
 static const struct settings TABLE = {.n = sizeof ROWS / sizeof *ROWS, .rows = ROWS};
 
-static char path[200];
+static char path[200], said[2000];
 
-static bool read_text(const char *text, struct run *run, char **sentences)
+/* What it prints becomes said. */
+static bool read_file(const char *name, struct run *run)
+{
+    struct capture capture;
+    *run = (struct run){0};
+    settings_start(&TABLE, run);
+    capture_begin(&capture);
+    bool ok = settings_read(name, &TABLE, run);
+    capture_end(&capture, said, sizeof said);
+    return ok;
+}
+
+static bool read_text(const char *text, struct run *run)
 {
     FILE *out = fopen(path, "w");
     CU_ASSERT_PTR_NOT_NULL_FATAL(out);
     fputs(text, out);
     fclose(out);
-    *run = (struct run){0};
-    settings_start(&TABLE, run);
-    return settings_read(path, &TABLE, run, sentences);
+    return read_file(path, run);
 }
 
 static void test_good_file(void)
 {
     struct run run;
-    char *sentences;
     CU_ASSERT_TRUE(read_text("# comment\nsolver: {tolerance: 1e-3, cutoff: none, refine: 2, "
                              "formulation: michell, line_term: off}\n"
                              "samples: 500\nseed: 18446744073709551615\nbox: [auto, 2.5, auto]\n"
                              "axes: [z, x]\nspeeds: [0.28, '0.3:0.4:0.05']\nparts:\n"
                              "  - name: bow\n    bounds: [1, 2]\n  - {name: stern}\n",
-                             &run, &sentences));
-    CU_ASSERT_STRING_EQUAL(sentences, "");
-    free(sentences);
+                             &run));
+    CU_ASSERT_STRING_EQUAL(said, "");
     CU_ASSERT_EQUAL(run.tolerance, 1e-3);
     CU_ASSERT_EQUAL(run.share, 0.95);
     CU_ASSERT_TRUE(isinf(run.cutoff));
@@ -214,7 +223,7 @@ static void test_null_keeps_the_default(void)
 {
     struct run run;
     CU_ASSERT_TRUE(
-        read_text("solver:\n  refine: null\n  tolerance:\n  cutoff: ~\nbox: auto\n", &run, NULL));
+        read_text("solver:\n  refine: null\n  tolerance:\n  cutoff: ~\nbox: auto\n", &run));
     CU_ASSERT_EQUAL(run.refine, 1);
     CU_ASSERT_FALSE(run.refine_given);
     CU_ASSERT_TRUE(isnan(run.cutoff) && isnan(run.box[2]));
@@ -286,16 +295,15 @@ static void test_wrong_files(void)
 {
     for (size_t i = 0; i < sizeof WRONG / sizeof *WRONG; i++) {
         struct run run;
-        char *sentences = NULL, expected[400];
-        CU_ASSERT_FALSE(read_text(WRONG[i].text, &run, &sentences));
+        char expected[400];
+        CU_ASSERT_FALSE(read_text(WRONG[i].text, &run));
         bool from_path = WRONG[i].sentence[0] == ':';
         snprintf(expected, sizeof expected, "%s%s", from_path ? path : "", WRONG[i].sentence);
         expected[strcspn(expected, "\n")] = '\0';
-        if (!strstr(sentences, expected) || strchr(sentences, '\n')) {
-            fprintf(stderr, "'%s' gives '%s', expected '%s'\n", WRONG[i].text, sentences, expected);
+        if (!strstr(said, expected) || !capture_is_sentence(said)) {
+            fprintf(stderr, "'%s' gives '%s', expected '%s'\n", WRONG[i].text, said, expected);
             CU_FAIL("sentence");
         }
-        free(sentences);
         settings_free(&TABLE, &run);
     }
 }
@@ -303,28 +311,23 @@ static void test_wrong_files(void)
 static void test_all_at_once_in_order(void)
 {
     struct run run;
-    char *sentences;
     CU_ASSERT_FALSE(read_text("seed: x\nsolver: {refine: 99, unknown: 1}\nparts:\n  - {bounds: 3}\n"
                               "samples: y\n",
-                              &run, &sentences));
-    size_t lines = 1;
-    for (const char *c = sentences; *c; c++)
+                              &run));
+    size_t lines = 0;
+    for (const char *c = said; *c; c++)
         lines += *c == '\n';
     CU_ASSERT_EQUAL(lines, 6);
-    const char *first = strstr(sentences, ":1: seed"), *last = strstr(sentences, ":5: samples");
+    const char *first = strstr(said, ":1: seed"), *last = strstr(said, ":5: samples");
     CU_ASSERT_TRUE(first && last && first < last);
-    free(sentences);
     settings_free(&TABLE, &run);
 }
 
 static void test_missing_file(void)
 {
-    struct run run = {0};
-    char *sentences;
-    settings_start(&TABLE, &run);
-    CU_ASSERT_FALSE(settings_read("/nowhere/run.yaml", &TABLE, &run, &sentences));
-    CU_ASSERT_STRING_EQUAL(sentences, "/nowhere/run.yaml: No such file or directory");
-    free(sentences);
+    struct run run;
+    CU_ASSERT_FALSE(read_file("/nowhere/run.yaml", &run));
+    CU_ASSERT_PTR_NOT_NULL(strstr(said, ": /nowhere/run.yaml: No such file or directory\n"));
     settings_free(&TABLE, &run);
 }
 
@@ -384,9 +387,8 @@ static void test_canonical_text_reads_back(void)
     struct run run;
     char *text;
     size_t length;
-    CU_ASSERT_TRUE(
-        read_text("solver: {tolerance: 0.003, cutoff: none}\naxes: [z, x]\nspeeds: [0.28, 0.41]\n",
-                  &run, NULL));
+    CU_ASSERT_TRUE(read_text(
+        "solver: {tolerance: 0.003, cutoff: none}\naxes: [z, x]\nspeeds: [0.28, 0.41]\n", &run));
     text = settings_text(&TABLE, &run);
     CU_ASSERT_PTR_NOT_NULL_FATAL(text);
     CU_ASSERT_STRING_EQUAL(text, "hull =\nsolver.tolerance = 0.003\nsolver.share = 0.95\n"
@@ -429,22 +431,19 @@ static void test_restore(void)
 static void test_bytes(void)
 {
     struct run run;
-    char *sentences;
-    CU_ASSERT_TRUE(read_text("\xef\xbb\xbfseed: 5\n", &run, NULL));
+    CU_ASSERT_TRUE(read_text("\xef\xbb\xbfseed: 5\n", &run));
     CU_ASSERT_EQUAL(run.seed, 5);
     settings_free(&TABLE, &run);
-    settings_start(&TABLE, &run);
-    CU_ASSERT_FALSE(settings_read("/dev/zero", &TABLE, &run, &sentences));
-    free(sentences);
+    CU_ASSERT_FALSE(read_file("/dev/zero", &run));
+    settings_free(&TABLE, &run);
     FILE *out = fopen(path, "w");
     CU_ASSERT_PTR_NOT_NULL_FATAL(out);
     for (size_t i = 0; i < 100000; i++)
         fputs("# a comment of some forty characters here\n", out);
     fclose(out);
     CU_ASSERT_EQUAL(truncate(path, (off_t)2 << 30), 0);
-    CU_ASSERT_FALSE(settings_read(path, &TABLE, &run, &sentences));
-    CU_ASSERT_PTR_NOT_NULL(strstr(sentences, "is longer than 4194304 bytes"));
-    free(sentences);
+    CU_ASSERT_FALSE(read_file(path, &run));
+    CU_ASSERT_PTR_NOT_NULL(strstr(said, "is longer than 4194304 bytes"));
     settings_free(&TABLE, &run);
 }
 

@@ -361,7 +361,7 @@ static bool complete(struct config *c)
 
 bool config_read(const char *path, struct config *c)
 {
-    return settings_read(path, &CONFIG, c, NULL) && complete(c);
+    return settings_read(path, &CONFIG, c) && complete(c);
 }
 
 /* A path as the file means it: relative to its folder. */

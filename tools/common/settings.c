@@ -15,17 +15,15 @@
 enum { MOST_ENTRIES = 64 };              /* of an array in one text; no row has more */
 static const off_t MOST_BYTES = 1 << 30; /* of a file that a setting names */
 
+static const struct setting_word SWITCH[] = {{"true", 1}, {"false", 0}, {"yes", 1}, {"no", 0},
+                                             {"on", 1},   {"off", 0},   {NULL, 0}};
+
 /* The k-th word of a row and what it stands for; NULL after the last. */
 static const char *word_at(const struct setting *row, int k, double *value)
 {
-    if (row->choice) {
-        *value = k;
-        return row->choice(k);
-    }
-    if (!row->words || !row->words[k].name)
-        return NULL;
-    *value = row->words[k].value;
-    return row->words[k].name;
+    const struct setting_word *words = row->type == SETTING_SWITCH ? SWITCH : row->words;
+    *value = words ? words[k].value : k;
+    return words ? words[k].name : row->choice ? row->choice(k) : NULL;
 }
 
 static bool find_word(const struct setting *row, const char *text, double *value)
@@ -87,7 +85,7 @@ static void print_expected(const struct setting *row, FILE *out)
     fputs(kinds[row->type][row->n_most > 1], out);
     if (has_range(row))
         print_range(row, out);
-    for (int k = 0; (word = word_at(row, k, &value)) != NULL; k++) {
+    for (int k = 0; row->type != SETTING_SWITCH && (word = word_at(row, k, &value)) != NULL; k++) {
         const char *before = word_at(row, k + 1, &value) ? ", " : " or ";
         fprintf(out, "%s%s", k == 0 && row->type == SETTING_CHOICE ? "" : before, word);
     }
@@ -115,24 +113,13 @@ static const char *refuse_file(const char *path)
                                        : NULL;
 }
 
-static bool scan_switch(const char *text, bool *value)
-{
-    static const char *const words[] = {"false", "true", "no", "yes", "off", "on"};
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (strcmp(text, words[i]) == 0) {
-            *value = i % 2 == 1;
-            return true;
-        }
-    return false;
-}
-
 /* Stores a text as entry i; false when it is none of what is expected. */
 static bool store(const struct setting *row, const char *text, size_t i, void *at, const char *path)
 {
-    double value = 0;
-    bool ok = find_word(row, text, &value);
-    size_t count = ok ? (size_t)value : 0;
-    int integer = ok ? (int)value : 0;
+    double value;
+    size_t count = 0;
+    int integer = 0;
+    bool word = find_word(row, text, &value), ok = word;
     switch (row->type) {
     case SETTING_NUMBER:
         ok = ok || (cli_parse_double(text, &value) && inside(row, value));
@@ -142,23 +129,19 @@ static bool store(const struct setting *row, const char *text, size_t i, void *a
     case SETTING_COUNT:
         ok = ok || (cli_parse_size(text, &count) && inside(row, (double)count));
         if (ok)
-            ((size_t *)at)[i] = count;
+            ((size_t *)at)[i] = word ? (size_t)value : count;
         return ok;
     case SETTING_INTEGER:
+        ok = ok || (cli_parse_int(text, &integer) && inside(row, integer));
+        /* fall through */
     case SETTING_CHOICE:
-        ok = ok || (row->type == SETTING_INTEGER && cli_parse_int(text, &integer) &&
-                    inside(row, integer));
-        if (ok)
+    case SETTING_SWITCH:
+        integer = word ? (int)value : integer;
+        if (ok && row->type == SETTING_SWITCH && row->size != sizeof(int))
+            ((bool *)at)[i] = integer;
+        else if (ok)
             ((int *)at)[i] = integer;
         return ok;
-    case SETTING_SWITCH:
-        if (!scan_switch(text, &ok))
-            return false;
-        if (row->size == sizeof(int))
-            ((int *)at)[i] = ok;
-        else
-            ((bool *)at)[i] = ok;
-        return true;
     default:
         free(((char **)at)[i]);
         ((char **)at)[i] = row->type == SETTING_FILE ? resolve(path, text) : strdup(text);
@@ -287,8 +270,6 @@ void settings_start(const struct settings *table, void *target)
         if (row->otherwise)
             settings_set_text(NULL, row, 0, "", row->otherwise, target);
     }
-    if (table->also)
-        settings_start(table->also, (char *)target + table->also_offset);
 }
 
 void settings_free(const struct settings *table, void *target)
@@ -304,8 +285,6 @@ void settings_free(const struct settings *table, void *target)
         free(*at);
         *at = NULL;
     }
-    if (table->also)
-        settings_free(table->also, (char *)target + table->also_offset);
 }
 
 /* Entry i of the value at AT, by its word where it has one. */
@@ -328,8 +307,8 @@ static void print_entry(const struct setting *row, const void *at, size_t i, FIL
     for (int k = 0; (word = word_at(row, k, &meant)) != NULL; k++)
         if (meant == value || (isnan(meant) && isnan(value)))
             break;
-    if (word || row->type == SETTING_SWITCH)
-        fputs(word ? word : value != 0 ? "true" : "false", out);
+    if (word)
+        fputs(word, out);
     else if (row->type == SETTING_COUNT)
         fprintf(out, "%zu", ((const size_t *)at)[i]);
     else
@@ -485,8 +464,6 @@ void settings_help(const struct settings *table, const void *target, bool keys, 
                       : row->option && !(*row->option >= 'A' && *row->option <= 'Z'))
             print_help_row(row, target, keys, out);
     }
-    if (table->also)
-        settings_help(table->also, (const char *)target + table->also_offset, keys, out);
 }
 
 bool settings_nearer(const char *a, const char *b, size_t *least)
@@ -511,25 +488,18 @@ bool settings_nearer(const char *a, const char *b, size_t *least)
     return nearer;
 }
 
-bool settings_close(struct settings_source *source, char **sentences)
+bool settings_close(struct settings_source *source)
 {
-    size_t length;
-    FILE *out = sentences ? open_memstream(sentences, &length) : NULL;
     for (size_t i = 0; i < source->n; i++) {
         const struct complaint *c = &source->complaints[i];
-        char place[32] = "";
-        if (c->line)
-            snprintf(place, sizeof place, ":%zu", c->line);
-        if (out)
-            fprintf(out, "%s%s%s: %s", i ? "\n" : "", source->path, place, c->text);
-        else if (source->path)
-            cli_fail("%s%s: %s", source->path, place, c->text);
-        else
+        if (!source->path)
             cli_usage("%s", c->text);
+        else if (c->line)
+            cli_fail("%s:%zu: %s", source->path, c->line, c->text);
+        else
+            cli_fail("%s: %s", source->path, c->text);
         free(c->text);
     }
     free(source->complaints);
-    if (out)
-        fclose(out);
     return source->n == 0;
 }

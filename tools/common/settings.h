@@ -69,9 +69,7 @@ struct settings {
     const struct setting *rows;
     /* What no row can say alone, by settings_complain(); called when every row is well. */
     void (*check)(struct settings_source *source, void *target);
-    const char *usage;           /* of a command line: the head of its --help */
-    const struct settings *also; /* more options, of a part of the target at also_offset */
-    size_t also_offset;
+    const char *usage; /* of a command line: the head of its --help */
 };
 
 /* Sets the defaults of the rows that have one; texts and lists without become NULL. */
@@ -79,8 +77,8 @@ void settings_start(const struct settings *table, void *target);
 void settings_free(const struct settings *table, void *target);
 
 /* Reads a YAML file over what stands in the target. All that is wrong is said at once, a sentence
- * "file:line: ..." a line: into *sentences (allocated), or on stderr when that is NULL. */
-bool settings_read(const char *path, const struct settings *table, void *target, char **sentences);
+ * "file:line: ..." a line. */
+bool settings_read(const char *path, const struct settings *table, void *target);
 
 /* Reads a command line, argv[0] skipped, over what stands in the target; --help, --version and
  * --threads are everybody's. Returns -1 to go on, else an exit code. Words beyond the rows' go to

@@ -25,8 +25,8 @@ __attribute__((format(printf, 5, 6))) void settings_refuse(struct settings_sourc
                                                            size_t line, const char *key,
                                                            const struct setting *row,
                                                            const char *format, ...);
-/* Hands the complaints over, joined, or prints them; true when there were none. */
-bool settings_close(struct settings_source *source, char **sentences);
+/* Prints the complaints; true when there were none. */
+bool settings_close(struct settings_source *source);
 
 /* Stores n texts as the value of a row. On failure complains by the key, unless source is NULL. */
 bool settings_set(struct settings_source *source, const struct setting *row, size_t line,

@@ -42,8 +42,6 @@ static void add_rows(struct command_line *line, const struct settings *table, vo
     for (size_t r = 0; r < table->n && line->n < MOST; r++)
         if (table->rows[r].option && table->rows[r].type != SETTING_HEADING)
             line->places[line->n++] = (struct place){&table->rows[r], target, false};
-    if (table->also)
-        add_rows(line, table->also, (char *)target + table->also_offset);
 }
 
 static const char *without_no(const char *name)
@@ -186,5 +184,5 @@ int settings_options(int argc, char **argv, const struct settings *table, void *
         cli_set_threads(threads);
     if (n_words)
         *n_words = line.n_words;
-    return settings_close(&source, NULL) ? -1 : CLI_USAGE;
+    return settings_close(&source) ? -1 : CLI_USAGE;
 }

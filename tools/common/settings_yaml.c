@@ -280,7 +280,7 @@ void settings_complain(struct settings_source *source, const char *key, const ch
         settings_add(source, 0, "", "--%s %s", dot ? dot + 1 : key, text);
 }
 
-bool settings_read(const char *path, const struct settings *table, void *target, char **sentences)
+bool settings_read(const char *path, const struct settings *table, void *target)
 {
     yaml_document_t document;
     struct settings_source source = {.path = path, .document = &document, .prefix = ""};
@@ -290,5 +290,5 @@ bool settings_read(const char *path, const struct settings *table, void *target,
             read_table(&source, table, root, "", target);
         yaml_document_delete(&document);
     }
-    return settings_close(&source, sentences);
+    return settings_close(&source);
 }

@@ -243,7 +243,7 @@ bool shape_definition_read(const char *path, size_t npoints, const double *xyz,
     struct shape_text text = {.npoints = npoints, .xyz = xyz};
     *definition = (struct shape_definition){.n = 0};
     settings_start(&SHAPE_TABLE, &text);
-    bool ok = settings_read(path, &SHAPE_TABLE, &text, NULL) && put_shape(&text, definition);
+    bool ok = settings_read(path, &SHAPE_TABLE, &text) && put_shape(&text, definition);
     settings_free(&SHAPE_TABLE, &text);
     return ok;
 }

@@ -127,7 +127,7 @@ bool config_read(const char *path, const struct config_overrides *overrides, str
     *config = (struct config){.path = strdup(path)};
     igabem_options_init(&config->solver);
     settings_start(&CONFIG, config);
-    bool ok = config->path && settings_read(path, &CONFIG, config, NULL);
+    bool ok = config->path && settings_read(path, &CONFIG, config);
     if (ok && overrides && overrides->initial != SIZE_MAX)
         config->initial = overrides->initial;
     if (ok && overrides && overrides->iterations != SIZE_MAX)

@@ -1,6 +1,6 @@
 /* Runs code with stderr in a file, to read the sentence that a failure prints. */
-#ifndef TESTS_HULLOPT_CAPTURE_H
-#define TESTS_HULLOPT_CAPTURE_H
+#ifndef TESTS_CAPTURE_H
+#define TESTS_CAPTURE_H
 
 #include <stdio.h>
 #include <string.h>
