@@ -139,6 +139,18 @@ bool config_read(const char *path, const struct config_overrides *overrides, str
     return ok;
 }
 
+bool config_restore(const char *text, struct config *config)
+{
+    size_t line;
+    *config = (struct config){.text = strdup(text)};
+    igabem_options_init(&config->solver);
+    settings_start(&CONFIG, config);
+    bool ok = config->text && settings_restore(&CONFIG, text, config, &line);
+    if (!ok)
+        config_free(config);
+    return ok;
+}
+
 void config_free(struct config *config)
 {
     settings_free(&CONFIG, config);

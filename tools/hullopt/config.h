@@ -53,6 +53,9 @@ struct config_overrides {
 /* Reads and checks everything that needs no geometry. Prints a sentence with file, line and field
  * for all that is wrong. */
 bool config_read(const char *path, const struct config_overrides *overrides, struct config *config);
+/* The same from the canonical text of a run; there is no path, and hull and shape are names. False
+ * for a text that no version of this command wrote. */
+bool config_restore(const char *text, struct config *config);
 void config_free(struct config *config);
 
 /* First line in which two canonical texts differ, as "now ..., then ..." in sentence[size]; false
