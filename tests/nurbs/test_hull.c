@@ -219,6 +219,39 @@ static void rebuilds_smoothly_in_a_shared_space(void)
     nurbs_patches_free(patches);
 }
 
+/* A line of the grid lies on a kink, however many lines there are. */
+static void lays_grid_lines_on_kinks(void)
+{
+    const double kink[3] = {0.3, 0.3, 0.3};
+    nurbs_surface *smooth = NULL, *raised = NULL, *cubic = NULL, *kinked = NULL;
+    nurbs_hull *hull = NULL;
+    const double shift[3] = {0, 0, 0.1};
+    double at[3];
+    CU_ASSERT_EQUAL_FATAL(nurbs_make_wigley(L, B, T, &smooth), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_transform(smooth, NULL, shift, &raised), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(
+        nurbs_surface_elevate(raised, 0, 3 - nurbs_surface_degree(raised, 0), &cubic), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_insert(cubic, 0, 3, kink, &kinked), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(
+        nurbs_hull_create_surfaces(1, (const nurbs_surface *const[]){kinked}, NULL, &hull),
+        NURBS_OK);
+    CU_ASSERT_EQUAL(nurbs_surface_eval(kinked, 0, 1, (double[]){0.3, 0}, at), NURBS_OK);
+    for (size_t n = 5; n <= 40; n += 7) {
+        nurbs_grid *grid = NULL;
+        size_t kinks = 0;
+        CU_ASSERT_EQUAL_FATAL(nurbs_hull_design_grid(hull, n, 4, &grid), NURBS_OK);
+        for (size_t i = 0; i < n; i++)
+            kinks += fabs(nurbs_grid_points(grid)[3 * 4 * i] - at[0]) < 1e-12;
+        CU_ASSERT_EQUAL(kinks, 1);
+        nurbs_grid_free(grid);
+    }
+    nurbs_hull_free(hull);
+    nurbs_surface_free(smooth);
+    nurbs_surface_free(raised);
+    nurbs_surface_free(cubic);
+    nurbs_surface_free(kinked);
+}
+
 static void keeps_the_design_grid_of_its_file(void)
 {
     struct hull5415 shipped;
@@ -266,6 +299,7 @@ static const struct check_case cases[] = {
     {"whole body counts each side once", whole_body_counts_each_side_once},
     {"rebuilds from its design grid", rebuilds_from_its_design_grid},
     {"rebuilds smoothly in a shared space", rebuilds_smoothly_in_a_shared_space},
+    {"lays grid lines on kinks", lays_grid_lines_on_kinks},
     {"keeps the design grid of its file", keeps_the_design_grid_of_its_file},
     {"refuses with the file and the reason", refuses_with_the_file_and_the_reason},
 };
