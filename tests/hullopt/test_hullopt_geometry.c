@@ -1,230 +1,151 @@
-/* Displacement of a grid, sections, particulars of sampling, and the chain to the light patch, on
- * the Wigley hull where everything is known: V = 4/9 L B T, A(x) = 2/3 B T (1 - (2x/L)^2). */
+/* From a configuration to the parent, its latent space and the hulls of latent points, on the
+ * shipped Wigley hull: V = 4/9 L B T. And which designs the constraints allow. */
 #include "check.h"
-#include "design.h"
-#include "entrance.h"
-#include "evaluate.h"
-#include "limits.h"
-#include "outcome.h"
-#include "parent.h"
-#include "volume.h"
+#include "core/constraints.h"
+#include "core/problem.h"
+#include "shape_yaml.h"
 
-static const double LENGTH = 1, BEAM = 0.1, DRAFT = 0.0625;
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
-/* The hull with straight sides above the water, rows along x, girth from the deck to the keel. */
-static void wigley_grid(size_t rows, size_t columns, double top, double *points)
+static char path[200];
+static struct config config;
+static struct problem problem;
+
+static void say_why(bool ok)
 {
-    for (size_t i = 0; i < rows; i++) {
-        for (size_t j = 0; j < columns; j++) {
-            double x = LENGTH * ((double)i / (double)(rows - 1) - 0.5);
-            double z = top - (top + DRAFT) * (double)j / (double)(columns - 1);
-            double wet = z < 0 ? 1 - z * z / (DRAFT * DRAFT) : 1;
-            double *p = points + 3 * (i * columns + j);
-            p[0] = x;
-            p[1] = BEAM / 2 * (1 - 4 * x * x / (LENGTH * LENGTH)) * wet;
-            p[2] = z;
-        }
-    }
-}
-
-static void test_volume_converges(void)
-{
-    double exact = 4.0 / 9 * LENGTH * BEAM * DRAFT, error[3];
-    static double points[3 * 129 * 65];
-    for (size_t k = 0; k < 3; k++) {
-        size_t rows = (32u << k) + 1, columns = (16u << k) + 1;
-        wigley_grid(rows, columns, 0.02, points);
-        error[k] = fabs(fabs(volume_of_grid(rows, columns, points)) / exact - 1);
-    }
-    CU_ASSERT_TRUE(error[2] < 1e-3);
-    CU_ASSERT_TRUE(error[1] < error[0] / 3);
-    CU_ASSERT_TRUE(error[2] < error[1] / 3);
-}
-
-/* A wall-sided box is cut exactly wherever the water stands on its sides. */
-static void test_volume_cut(void)
-{
-    double points[3 * 3 * 4];
-    static const double z[4] = {0.3, 0.11, -0.07, -0.4};
-    for (size_t i = 0; i < 3; i++) {
-        for (size_t j = 0; j < 4; j++) {
-            double *p = points + 3 * (4 * i + j);
-            p[0] = 0.5 * (double)i;
-            p[1] = 0.2;
-            p[2] = z[j];
-        }
-    }
-    CHECK_RELATIVE(fabs(volume_of_grid(3, 4, points)), 2 * 1.0 * 0.2 * 0.4, 1e-14);
-}
-
-static void make_latent(size_t n, bool along_x, struct latent *l)
-{
-    *l = (struct latent){.modes = 2, .coordinates = n, .spectrum = 2};
-    CU_ASSERT_TRUE_FATAL(latent_allocate(l));
-    for (size_t k = 0; k < n; k += 3) {
-        l->vectors[k + 1] = 0.01 * sin(0.1 * (double)k);
-        l->vectors[n + k + 1] = 0.02 * cos(0.03 * (double)k);
-        l->vectors[n + k] = along_x ? 0.01 * sin(0.02 * (double)k) : 0;
-    }
-}
-
-/* Moves along x make the volume nonlinear in u: it is then that of the moved grid. */
-static void test_limits_of_grid(void)
-{
-    enum { ROWS = 21, COLUMNS = 9, N = 3 * ROWS * COLUMNS };
-    double points[N], moved[N], gradient[2], least = INFINITY;
-    struct latent latent;
-    struct limits limits;
-    struct parent parent = {.length = LENGTH};
-    const double u[2] = {0.4, -0.3};
-    wigley_grid(ROWS, COLUMNS, 0.02, points);
-    CU_ASSERT_EQUAL_FATAL(nurbs_grid_create(ROWS, COLUMNS, points, &parent.grid), NURBS_OK);
-    make_latent(N, true, &latent);
-    CU_ASSERT_FALSE(limits_gradient(&latent, &parent, 1e-4, gradient));
-    CU_ASSERT_TRUE_FATAL(limits_create(&latent, parent.grid, NULL, &limits));
-    latent_displace(&latent, u, moved);
-    for (size_t k = 0; k < N; k++)
-        moved[k] += points[k];
-    for (size_t k = 1; k < N; k += 3)
-        least = fmin(least, moved[k]);
-    double ratio = volume_of_grid(ROWS, COLUMNS, moved) / volume_of_grid(ROWS, COLUMNS, points);
-    CHECK_CLOSE(limits_volume_ratio(&limits, u), ratio, 1e-13);
-    CU_ASSERT_TRUE(fabs(ratio - 1) > 1e-3);
-    CHECK_CLOSE(limits_breadth(&limits, u).least_y, least, 1e-15);
-    CU_ASSERT_TRUE(least < 0);
-    limits_free(&limits);
-    latent_free(&latent);
-    nurbs_grid_free(parent.grid);
-}
-
-/* Moves along y: the linear rule gives the volume of the built hull. The mode leaves keel, stem and
- * stern where they are. */
-static void test_limits_of_hull(void)
-{
-    enum { ROWS = 41, COLUMNS = 17, N = 3 * ROWS * COLUMNS };
-    double points[N], d[N], gradient[1];
-    struct latent latent = {.modes = 1, .coordinates = N, .spectrum = 1};
-    struct limits limits;
-    struct parent parent = {.length = LENGTH};
-    struct design original, moved;
-    struct failure failure = {"", ""};
-    wigley_grid(ROWS, COLUMNS, 0.02, points);
-    CU_ASSERT_EQUAL_FATAL(nurbs_grid_create(ROWS, COLUMNS, points, &parent.grid), NURBS_OK);
-    CU_ASSERT_TRUE_FATAL(latent_allocate(&latent));
-    for (size_t k = 0; k < N; k += 3)
-        latent.vectors[k + 1] = points[k + 1] * (1 + points[k]);
-    latent.lower[0] = -0.2;
-    latent.upper[0] = 0.2;
-    CU_ASSERT_TRUE_FATAL(limits_gradient(&latent, &parent, 1e-4, gradient));
-    CU_ASSERT_TRUE_FATAL(limits_create(&latent, parent.grid, gradient, &limits));
-    const double u[1] = {0.15};
-    latent_displace(&latent, u, d);
-    CU_ASSERT_TRUE_FATAL(design_build(&parent, NULL, 1e-4, &original, &failure));
-    CU_ASSERT_TRUE_FATAL(design_build(&parent, d, 1e-4, &moved, &failure));
-    double ratio = moved.hydrostatics.volume / original.hydrostatics.volume;
-    CU_ASSERT_TRUE(fabs(ratio - 1) > 0.1);
-    CHECK_CLOSE(limits_volume_ratio(&limits, u), ratio, 1e-4);
-    struct limits_breadth breadth = limits_breadth(&limits, u);
-    CHECK_CLOSE(breadth.least_y, 0, 1e-15);
-    /* The mode widens the fore end by 1.5 x 0.15 and the aft end by 0.5 x 0.15; next to it. */
-    CHECK_CLOSE(breadth.least_share, 1 + 0.15 * (1 - 0.475), 1e-12);
-    design_free(&original);
-    design_free(&moved);
-    limits_free(&limits);
-    latent_free(&latent);
-    nurbs_grid_free(parent.grid);
-}
-
-static void test_parameters(void)
-{
-    /* Cubic, a kink at 0.3 with a triple knot. */
-    const double knots[] = {0, 0, 0, 0, 0.1, 0.3, 0.3, 0.3, 0.7, 1, 1, 1, 1};
-    double out[40];
-    for (size_t n = 5; n <= 40; n += 7) {
-        size_t kinks = 0;
-        CU_ASSERT_TRUE(parent_parameters(3, 9, knots, n, out));
-        CU_ASSERT_EQUAL(out[0], 0);
-        CU_ASSERT_EQUAL(out[n - 1], 1);
-        for (size_t k = 0; k < n; k++)
-            kinks += out[k] == 0.3;
-        CU_ASSERT_EQUAL(kinks, 1);
-    }
-}
-
-static void test_design(void)
-{
-    enum { ROWS = 41, COLUMNS = 17 };
-    double points[3 * ROWS * COLUMNS], d[3 * ROWS * COLUMNS];
-    struct parent parent = {.length = LENGTH};
-    struct design design, wider;
-    struct failure failure = {"", ""};
-    wigley_grid(ROWS, COLUMNS, 0.02, points);
-    CU_ASSERT_EQUAL_FATAL(nurbs_grid_create(ROWS, COLUMNS, points, &parent.grid), NURBS_OK);
-    bool ok = design_build(&parent, NULL, 1e-4, &design, &failure);
     if (!ok)
-        fprintf(stderr, "%s: %s\n", failure.stage, failure.reason);
+        fprintf(stderr, "%s\n", core_sentence());
     CU_ASSERT_TRUE_FATAL(ok);
-    double volume = 4.0 / 9 * LENGTH * BEAM * DRAFT;
-    CHECK_RELATIVE(design.hydrostatics.volume, volume, 2e-3);
-    CHECK_RELATIVE(design.hydrostatics.beam, BEAM, 2e-3);
-    CHECK_RELATIVE(design.hydrostatics.draft, DRAFT, 2e-3);
-    CU_ASSERT_TRUE(design.bound <= 1e-4 * LENGTH);
-    CU_ASSERT_TRUE(nurbs_surface_size(design.light, 0) * nurbs_surface_size(design.light, 1) <
-                   ROWS * COLUMNS / 2);
-
-    /* Ten percent more beam is ten percent more volume. */
-    for (size_t k = 0; k < 3 * ROWS * COLUMNS; k++)
-        d[k] = k % 3 == 1 ? 0.1 * points[k] : 0;
-    CU_ASSERT_TRUE_FATAL(design_build(&parent, d, 1e-4, &wider, &failure));
-    CHECK_RELATIVE(wider.hydrostatics.volume, 1.1 * design.hydrostatics.volume, 2e-3);
-    design_free(&wider);
-
-    /* Lifted out of the water there is no design, and the reason names the stage. */
-    for (size_t k = 0; k < 3 * ROWS * COLUMNS; k++)
-        d[k] = k % 3 == 2 ? 0.1 : 0;
-    CU_ASSERT_FALSE(design_build(&parent, d, 1e-4, &wider, &failure));
-    CU_ASSERT_STRING_EQUAL(failure.stage, "waterline");
-    CU_ASSERT_TRUE(strlen(failure.reason) > 10);
-    design_free(&design);
-    nurbs_grid_free(parent.grid);
 }
 
-/* The waterline y = (B/2)(1 - 4x^2) has the chords dy/dx = -2 B (x_i + x_{i+1}). */
-static void test_entrance(void)
+static void test_parent(void)
 {
-    enum { ROWS = 41, COLUMNS = 17, N = 3 * ROWS * COLUMNS };
-    double points[N];
-    struct latent latent = {.modes = 1, .coordinates = N, .spectrum = 1};
-    struct entrance entrance;
-    nurbs_grid *grid;
-    wigley_grid(ROWS, COLUMNS, 0.02, points);
-    CU_ASSERT_EQUAL_FATAL(nurbs_grid_create(ROWS, COLUMNS, points, &grid), NURBS_OK);
-    CU_ASSERT_TRUE_FATAL(latent_allocate(&latent));
-    for (size_t k = 0; k < N; k += 3)
-        latent.vectors[k + 1] = points[k + 1];
-    const double slope = 2 * BEAM * (1 - 1.0 / (ROWS - 1)), wider = 1.2 * slope;
-    CU_ASSERT_TRUE_FATAL(entrance_create(grid, 0.3, &entrance));
-    CU_ASSERT_EQUAL(entrance.n, ROWS);
-    CHECK_RELATIVE(entrance.largest, slope / sqrt(1 + slope * slope), 1e-3);
-    const double u[1] = {0.2}, parent[1] = {0};
-    CHECK_CLOSE(entrance_ratio(&entrance, &latent, parent), 1, 1e-12);
-    CHECK_RELATIVE(entrance_ratio(&entrance, &latent, u),
-                   1.2 * sqrt((1 + slope * slope) / (1 + wider * wider)), 1e-3);
-    entrance_free(&entrance);
-    /* Steeper pieces than the solver's nu_s are stem arcs and do not count. */
-    CU_ASSERT_TRUE_FATAL(entrance_create(grid, 0.1, &entrance));
-    CU_ASSERT_TRUE(entrance.largest <= 0.101 && entrance.largest > 0.09);
-    entrance_free(&entrance);
-    latent_free(&latent);
-    nurbs_grid_free(grid);
+    FILE *file = fopen(path, "w");
+    CU_ASSERT_PTR_NOT_NULL_FATAL(file);
+    fputs("hull: " EXAMPLES_DIR "/hulls/wigley.json\nshape: " EXAMPLES_DIR "/wigley_shape.yaml\n"
+          "grid: {sections: 21, girth: 9}\nlatent: {samples: 200, variance: 0.95}\n"
+          "flow: {froude: 0.316}\nsolver: {formulation: hogner}\n"
+          "reconstruction: {tolerance: 1e-3}\nsearch: {initial: 8}\n"
+          "constraints: {displacement: 0.05, breadth: 0.2, entrance: 1.2}\n",
+          file);
+    fclose(file);
+    CU_ASSERT_TRUE_FATAL(config_read(path, NULL, &config));
+    say_why(problem_read(&config, &problem));
+    CU_ASSERT_EQUAL(nurbs_grid_rows(problem.grid), 21);
+    CU_ASSERT_EQUAL(nurbs_grid_columns(problem.grid), 9);
+    CHECK_CLOSE(problem_length(&problem), 1, 1e-6);
+    CHECK_RELATIVE(nurbs_hull_hydrostatics(problem.parent.hull)->volume, 4.0 / 9 * 0.1 * 0.0625,
+                   5e-3);
+    CU_ASSERT_TRUE(nurbs_hull_bound(problem.parent.hull) <= config.tolerance);
+    /* the waterline's slope at its ends is 2 B/L */
+    CHECK_CLOSE(design_nu_s(&problem.parent), 0.2 / sqrt(1.04), 0.02);
+    CU_ASSERT_TRUE(isfinite(problem.solver.cutoff_angle));
+    CU_ASSERT_PTR_EQUAL(problem_best(&problem), &problem.parent);
+}
+
+static void test_latent_space(void)
+{
+    const struct core_watch nobody = {NULL, NULL};
+    const nurbs_grid *grid = problem.grid;
+    galv_shape *shape = shape_yaml_read(
+        config.shape, nurbs_grid_rows(grid) * nurbs_grid_columns(grid), nurbs_grid_points(grid));
+    CU_ASSERT_PTR_NOT_NULL_FATAL(shape);
+    say_why(problem_reduce(&problem, shape, &nobody));
+    CU_ASSERT_TRUE(galv_model_retained(problem.model) >= config.variance);
+    CU_ASSERT_PTR_NOT_NULL(galv_limits_gradient(problem.limits)); /* it moves along y alone */
+    galv_shape_free(shape);
+}
+
+/* The volume told before a hull is built is that of the hull; u = 0 is the parent, bit for bit. */
+static void test_designs(void)
+{
+    size_t modes = galv_model_modes(problem.model);
+    double *u = calloc(modes, sizeof *u), ratio;
+    struct design design;
+    double parent = nurbs_hull_hydrostatics(problem.parent.hull)->volume;
+    say_why(problem_build(&problem, u, &design));
+    CU_ASSERT_EQUAL(nurbs_hull_hydrostatics(design.hull)->volume, parent);
+    design_free(&design);
+    for (size_t k = 0; k < modes; k++) {
+        u[k] = 0.6 * galv_model_upper(problem.model)[k];
+        CU_ASSERT_EQUAL(galv_limits_volume(problem.limits, u, &ratio), GALV_OK);
+        say_why(problem_build(&problem, u, &design));
+        CHECK_CLOSE(nurbs_hull_hydrostatics(design.hull)->volume / parent, ratio, 2e-4);
+        design_free(&design);
+    }
+    say_why(problem_set_best(&problem, u));
+    CU_ASSERT_PTR_EQUAL(problem_best(&problem), &problem.best);
+    u[0] = NAN;
+    CU_ASSERT_FALSE(problem_build(&problem, u, &design));
+    CU_ASSERT_EQUAL(strncmp(core_sentence(), "grid: ", 6), 0);
+    CU_ASSERT_PTR_NULL(design.hull);
+    for (size_t k = 0; k < modes; k++)
+        u[k] = 1e3; /* metres: no hull at all */
+    CU_ASSERT_FALSE(problem_build(&problem, u, &design));
+    CU_ASSERT_PTR_NOT_NULL(strchr(core_sentence(), ':'));
+    free(u);
+}
+
+/* One value for each limit, negative at the parent; every limit is broken by a point of its own. */
+static void test_limits(void)
+{
+    size_t modes = galv_model_modes(problem.model);
+    double *u = calloc(modes, sizeof *u), value[5];
+    struct config asked = config;
+    CU_ASSERT_EQUAL_FATAL(limits_count(&config), 5);
+    CU_ASSERT_EQUAL(limits_evaluate(&problem, modes, u, value), 0);
+    CHECK_CLOSE(value[0], -1e-9, 1e-12); /* keel and stem are on the centre plane */
+    CHECK_CLOSE(value[1], 0.2 - 1, 1e-12);
+    CHECK_CLOSE(value[2], 1 - 1.2, 1e-12);
+    CHECK_CLOSE(value[3], -(0.05 - 1e-4), 1e-12);
+    CHECK_CLOSE(value[4], -(0.05 - 1e-4), 1e-12);
+    for (size_t k = 0; k < modes; k++)
+        u[k] = 5 * galv_model_upper(problem.model)[k];
+    CU_ASSERT_EQUAL(limits_evaluate(&problem, modes, u, value), 0);
+    CU_ASSERT_TRUE(fmax(value[3], value[4]) > 0);
+    asked.breadth = asked.entrance = asked.displacement = NAN;
+    CU_ASSERT_EQUAL(limits_count(&asked), 1);
+    free(u);
+}
+
+/* The hulls of a run come back without its files. */
+static void test_restored(void)
+{
+    struct config again;
+    struct problem back;
+    galv_field fields[64];
+    galv_model *model;
+    size_t n = galv_model_field_count(), grid[2] = {21, 9};
+    for (size_t i = 0; i < n; i++)
+        fields[i] = galv_model_field(problem.model, i);
+    CU_ASSERT_EQUAL_FATAL(galv_model_restore(n, fields, &model), GALV_OK);
+    CU_ASSERT_TRUE_FATAL(config_restore(config.text, &again));
+    CU_ASSERT_EQUAL(again.tolerance, config.tolerance);
+    CU_ASSERT_EQUAL(again.displacement, 0.05);
+    CU_ASSERT_TRUE(isnan(again.speeds));
+    CU_ASSERT_EQUAL(again.solver.formulation, IGABEM_FORMULATION_HOGNER);
+    CU_ASSERT_EQUAL(again.initial, 8);
+    say_why(problem_restore(&again, model, grid, problem_length(&problem), &back));
+    CU_ASSERT_EQUAL(nurbs_hull_hydrostatics(back.parent.hull)->volume,
+                    nurbs_hull_hydrostatics(problem.parent.hull)->volume);
+    problem_free(&back);
+    CU_ASSERT_EQUAL_FATAL(galv_model_restore(n, fields, &model), GALV_OK);
+    grid[0] = 20;
+    CU_ASSERT_FALSE(problem_restore(&again, model, grid, 1, &back));
+    CU_ASSERT_PTR_NOT_NULL(strstr(core_sentence(), "20 x 9"));
+    CU_ASSERT_FALSE(config_restore("colour = red\n", &again));
 }
 
 static void test_allowed_designs(void)
 {
     struct evaluation parent = {.id = 0, .cw = 2, .cw_pressure = 3};
     struct evaluation better = {.id = 5, .cw = 1, .cw_pressure = 3.2};
-    const struct outcome_limits none = {NAN, NAN}, loose = {1.1, NAN}, tight = {1, NAN},
-                                speeds = {NAN, 1};
+    const struct config none = {.pressure = NAN, .speeds = NAN},
+                        loose = {.pressure = 1.1, .speeds = NAN},
+                        tight = {.pressure = 1, .speeds = NAN},
+                        speeds = {.pressure = NAN, .speeds = 1, .verify_froudes = 2};
     CU_ASSERT_TRUE(outcome_allowed(&none, &better, &parent));
     CU_ASSERT_TRUE(outcome_allowed(&loose, &better, &parent));
     CU_ASSERT_FALSE(outcome_allowed(&tight, &better, &parent));
@@ -245,11 +166,11 @@ static void test_allowed_designs(void)
     better.cw_speed[0] = NAN;
     CU_ASSERT_FALSE(outcome_allowed(&speeds, &better, &parent));
     double bound[OUTCOME_MOST], ratio[OUTCOME_MOST];
-    const struct outcome_limits both = {1.1, 1};
+    const struct config both = {.pressure = 1.1, .speeds = 1, .verify_froudes = 2};
     better.cw_speed[0] = 0.25;
     parent.cw_pressure = 2;
     better.cw_pressure = 1;
-    CU_ASSERT_EQUAL_FATAL(outcome_bounds(&both, 2, bound), 3);
+    CU_ASSERT_EQUAL_FATAL(outcome_bounds(&both, bound), 3);
     outcome_ratios(&both, &better, &parent, ratio);
     CU_ASSERT_EQUAL(bound[0], 1.1);
     CU_ASSERT_EQUAL(bound[2], 1);
@@ -259,14 +180,23 @@ static void test_allowed_designs(void)
 }
 
 static const struct check_case cases[] = {
-    {"displacement of a grid converges", test_volume_converges},
-    {"displacement of a box is exact", test_volume_cut},
-    {"limits from the grid", test_limits_of_grid},
-    {"limits from built hulls", test_limits_of_hull},
-    {"steepest waterline", test_entrance},
+    {"the parent", test_parent},
+    {"the latent space", test_latent_space},
+    {"designs of latent points", test_designs},
+    {"limits known before a hull is built", test_limits},
+    {"hulls without their files", test_restored},
     {"designs that can be the best", test_allowed_designs},
-    {"grid parameters keep kinks", test_parameters},
-    {"from a grid to the light patch", test_design},
 };
 
-CHECK_MAIN("hullopt geometry", cases)
+int main(void)
+{
+    snprintf(path, sizeof path, "%s/hullopt_geometry_XXXXXX", check_scratch());
+    int file = mkstemp(path);
+    if (file < 0)
+        return EXIT_FAILURE;
+    close(file);
+    int code = check_main("hullopt geometry", cases, sizeof cases / sizeof *cases);
+    problem_free(&problem);
+    config_free(&config);
+    return unlink(path) == 0 ? code : EXIT_FAILURE;
+}

@@ -33,8 +33,10 @@ static void read_record(const char *name, struct record *r)
     CU_ASSERT_EQUAL_FATAL(sqlite3_open_v2(path, &db, SQLITE_OPEN_READWRITE, NULL), SQLITE_OK);
     sqlite3_busy_timeout(db, 30000);
     CU_ASSERT_EQUAL_FATAL(
-        sqlite3_prepare_v2(db, "SELECT id, u, cw, failed FROM hullopt_evaluation ORDER BY id", -1,
-                           &s, NULL),
+        sqlite3_prepare_v2(db,
+                           "SELECT id, x, f, state = 2 FROM bayesopt_points WHERE state != 0 "
+                           "ORDER BY id",
+                           -1, &s, NULL),
         SQLITE_OK);
     while (r->n < ROWS && sqlite3_step(s) == SQLITE_ROW) {
         size_t bytes = (size_t)sqlite3_column_bytes(s, 1);
@@ -58,8 +60,8 @@ static int told(const char *name)
     int n = -1;
     snprintf(path, sizeof path, "%s/%s/run.db", runner.folder, name);
     CU_ASSERT_EQUAL_FATAL(sqlite3_open_v2(path, &db, SQLITE_OPEN_READONLY, NULL), SQLITE_OK);
-    if (sqlite3_prepare_v2(db, "SELECT value FROM hullopt_text WHERE key = 'stop'", -1, &s, NULL) ==
-            SQLITE_OK &&
+    if (sqlite3_prepare_v2(db, "SELECT value FROM bayesopt_texts WHERE name = 'stop'", -1, &s,
+                           NULL) == SQLITE_OK &&
         sqlite3_step(s) == SQLITE_ROW)
         n = 1;
     sqlite3_finalize(s);
@@ -84,7 +86,7 @@ static void pause_for(double seconds)
     nanosleep(&time, NULL);
 }
 
-/* Waits until the run has a record more, which is when the search has not been told of it yet. */
+/* Waits until the run has a record more. */
 static void wait_for_record(const char *name, pid_t child)
 {
     static struct record first, now;

@@ -146,6 +146,34 @@ static void test_report_again(void)
     json_decref(printed);
 }
 
+/* Of a run that may not be written the figures are printed, and the files go elsewhere. */
+static void test_report_elsewhere(void)
+{
+    char elsewhere[200], path[300];
+    json_t *whole = read_json("summary.json");
+    runner_path(&runner, "elsewhere", elsewhere, sizeof elsewhere);
+    snprintf(path, sizeof path, "%s/report.html", out);
+    CU_ASSERT_EQUAL(unlink(path), 0);
+    CU_ASSERT_EQUAL(chmod(out, 0500), 0);
+    const char *const report[] = {"report", out, "--out", elsewhere, "--json", NULL};
+    CU_ASSERT_EQUAL(runner_run(&runner, report), 0);
+    json_t *printed = json_loads(runner.out, 0, NULL);
+    CU_ASSERT_TRUE(json_equal(printed, whole));
+    CU_ASSERT_FALSE(exists("report.html"));
+    snprintf(path, sizeof path, "%s/report.html", elsewhere);
+    CU_ASSERT_EQUAL(access(path, R_OK), 0);
+    const char *const figures[] = {"report", out, NULL};
+    CU_ASSERT_EQUAL(runner_run(&runner, figures), 0);
+    CU_ASSERT_PTR_NOT_NULL(strstr(runner.out, "reduction"));
+    if (geteuid() != 0) { /* root may write everywhere */
+        CU_ASSERT_PTR_NOT_NULL(strstr(runner.err, "warning"));
+        CU_ASSERT_FALSE(exists("report.html"));
+    }
+    CU_ASSERT_EQUAL(chmod(out, 0700), 0);
+    json_decref(printed);
+    json_decref(whole);
+}
+
 /* C_w at other speeds as a constraint: told to the search, kept by the best, and the same figures
  * as the verification's. */
 static void test_speeds(void)
@@ -339,6 +367,7 @@ static const struct check_case cases[] = {
     {"hull files", test_hulls},
     {"report", test_report},
     {"report again", test_report_again},
+    {"report elsewhere", test_report_elsewhere},
     {"other speeds bounded", test_speeds},
     {"a folder that holds a run", test_existing_run},
     {"usage", test_usage},

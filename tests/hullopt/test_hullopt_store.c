@@ -1,155 +1,200 @@
-/* The database of a run: what goes in comes out, and what is not a run is refused. */
-#include "capture.h"
+/* The record of a run: what goes in comes out, also where nothing may be written, and what is not
+ * such a record, newer or damaged is refused. */
 #include "check.h"
 #include "cli.h"
-#include "store.h"
+#include "core/record.h"
+#include "core/search.h"
 
-#include <sqlite3.h>
 #include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
-static char folder[120];
-static char path[200];
+static char folder[120], path[200];
 
-static struct store *fresh(const char *name)
+enum { ROWS = 5, COLUMNS = 4, POINTS = ROWS * COLUMNS, MODES = 2 };
+
+static struct config config = {.path = "run.yaml",
+                               .initial = 4,
+                               .iterations = 2,
+                               .displacement = NAN,
+                               .breadth = NAN,
+                               .entrance = NAN,
+                               .pressure = NAN,
+                               .speeds = NAN,
+                               .text = "a = 1\n"};
+static struct problem problem = {.config = &config};
+
+/* A latent space of two sideways modes on a half of a box; no solver is ever asked. */
+static void make_problem(void)
+{
+    double points[3 * POINTS], fields[MODES * 3 * POINTS] = {0}, lower[MODES] = {-1, -1},
+                                                  upper[MODES] = {1, 1};
+    const double gradient[MODES] = {0.25, -0.5};
+    galv_shape *shape;
+    galv_options options;
+    galv_model *model;
+    for (size_t p = 0; p < POINTS; p++) {
+        points[3 * p] = (double)(p / COLUMNS);
+        points[3 * p + 1] = 0.5;
+        points[3 * p + 2] = 0.2 - 0.3 * (double)(p % COLUMNS);
+        fields[3 * p + 1] = 0.1;
+        fields[3 * POINTS + 3 * p + 1] = 0.1 * points[3 * p];
+    }
+    galv_options_init(&options);
+    options.modes = MODES;
+    CU_ASSERT_EQUAL_FATAL(galv_shape_fields(MODES, POINTS, fields, lower, upper, &shape), GALV_OK);
+    CU_ASSERT_EQUAL_FATAL(galv_build(shape, POINTS, points, galv_uniform(40, 1), &options, &model),
+                          GALV_OK);
+    galv_shape_free(shape);
+    CU_ASSERT_EQUAL_FATAL(nurbs_grid_create(ROWS, COLUMNS, points, &problem.grid), NURBS_OK);
+    nurbs_surface *side;
+    nurbs_hull_options hull;
+    nurbs_hull_options_init(&hull);
+    hull.length = 4;
+    CU_ASSERT_EQUAL_FATAL(nurbs_make_wigley(4, 1, 0.5, &side), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(
+        nurbs_hull_create_surfaces(1, (const nurbs_surface *const[]){side}, &hull, &problem.source),
+        NURBS_OK);
+    nurbs_surface_free(side);
+    problem.model = model;
+    CU_ASSERT_EQUAL_FATAL(galv_limits_create(model, ROWS, COLUMNS, 1, &problem.limits), GALV_OK);
+    CU_ASSERT_EQUAL(galv_limits_set_gradient(problem.limits, gradient), GALV_OK);
+    igabem_options_init(&problem.solver);
+    problem.solver.formulation = IGABEM_FORMULATION_HOGNER;
+    problem.solver.froude = 0.3;
+    problem.solver.line_term = 0;
+    problem.solver.stem_limit = NAN;
+}
+
+static void fresh(const char *name, struct record *record)
 {
     snprintf(path, sizeof path, "%s/%s", folder, name);
-    struct store *store = store_create(path);
-    CU_ASSERT_PTR_NOT_NULL_FATAL(store);
-    CU_ASSERT_TRUE(store_put_text(store, "configuration", "a = 1\n"));
-    return store;
+    CU_ASSERT_TRUE_FATAL(search_open(&problem, path, record));
+    CU_ASSERT_TRUE_FATAL(record_put_origin(record, &problem));
 }
 
 static void test_texts_and_arrays(void)
 {
-    struct store *store = fresh("texts.db");
-    CU_ASSERT_TRUE(store_put_text(store, "stop", "first"));
-    CU_ASSERT_TRUE(store_put_text(store, "stop", "second"));
-    char *text = store_get_text(store, "stop");
+    struct record record;
+    const double values[6] = {1, -0.0, NAN, INFINITY, 1e-310, 1.0 / 3};
+    char *text;
+    double *back;
+    size_t rows = 0, columns = 0;
+    fresh("texts.db", &record);
+    CU_ASSERT_TRUE(record_put_text(&record, "stop", "first"));
+    CU_ASSERT_TRUE(record_put_text(&record, "stop", "second"));
+    CU_ASSERT_TRUE(record_get_text(&record, "stop", &text));
     CU_ASSERT_STRING_EQUAL_FATAL(text, "second");
     free(text);
-    CU_ASSERT_PTR_NULL(store_get_text(store, "nothing"));
-
-    const double values[6] = {1, -0.0, NAN, INFINITY, 1e-310, 1.0 / 3};
-    size_t rows = 0, columns = 0;
-    CU_ASSERT_TRUE(store_put_array(store, "a", 2, 3, values));
-    double *back = store_get_array(store, "a", &rows, &columns);
-    CU_ASSERT_PTR_NOT_NULL_FATAL(back);
+    CU_ASSERT_TRUE(record_get_text(&record, "nothing", &text));
+    CU_ASSERT_PTR_NULL(text);
+    CU_ASSERT_TRUE(record_put_array(&record, "a", 2, 3, values));
+    CU_ASSERT_TRUE(record_get_array(&record, "a", &rows, &columns, &back));
     CU_ASSERT_EQUAL(rows, 2);
     CU_ASSERT_EQUAL(columns, 3);
     CU_ASSERT_EQUAL(memcmp(values, back, sizeof values), 0);
     free(back);
-    CU_ASSERT_PTR_NULL(store_get_array(store, "b", &rows, &columns));
-    store_close(store);
+    record_close(&record);
 }
 
-static void test_latent(void)
+/* The latent space comes back whole, and so does what it was found for. */
+static void test_origin(void)
 {
-    struct store *store = fresh("latent.db");
-    struct latent l = {.modes = 2,
-                       .coordinates = 6,
-                       .spectrum = 3,
-                       .samples = 40,
-                       .parameters = 4,
-                       .active = 5,
-                       .retained = 0.97,
-                       .trace = 3.5};
-    struct latent back;
-    CU_ASSERT_TRUE_FATAL(latent_allocate(&l));
-    for (size_t k = 0; k < 12; k++)
-        l.vectors[k] = 1.0 / (double)(k + 1);
-    for (size_t k = 0; k < 3; k++)
-        l.eigenvalues[k] = 3.0 - (double)k;
-    l.lower[1] = -4;
-    l.upper[1] = 5;
-    l.mean[3] = 0.25;
-    l.mse[2] = 1e-9;
-    CU_ASSERT_TRUE(store_put_latent(store, &l));
-    CU_ASSERT_TRUE_FATAL(store_get_latent(store, &back));
-    CU_ASSERT_EQUAL(back.modes, 2);
-    CU_ASSERT_EQUAL(back.coordinates, 6);
-    CU_ASSERT_EQUAL(back.parameters, 4);
-    CU_ASSERT_EQUAL(back.active, 5);
-    CU_ASSERT_EQUAL(back.samples, 40);
-    CU_ASSERT_EQUAL(back.retained, 0.97);
-    CU_ASSERT_EQUAL(memcmp(back.vectors, l.vectors, 12 * sizeof(double)), 0);
-    CU_ASSERT_EQUAL(memcmp(back.eigenvalues, l.eigenvalues, 3 * sizeof(double)), 0);
-    CU_ASSERT_EQUAL(back.lower[1], -4);
-    CU_ASSERT_EQUAL(back.upper[1], 5);
-    CU_ASSERT_EQUAL(back.mean[3], 0.25);
-    CU_ASSERT_EQUAL(back.mse[2], 1e-9);
-
-    const double u[2] = {2, -3};
-    double d[6];
-    latent_displace(&back, u, d);
-    for (size_t k = 0; k < 6; k++)
-        CHECK_CLOSE(d[k], l.mean[k] + 2 * l.vectors[k] - 3 * l.vectors[6 + k], 1e-16);
-    latent_free(&l);
-    latent_free(&back);
-    store_close(store);
+    struct record record;
+    struct origin o;
+    fresh("origin.db", &record);
+    record_close(&record);
+    CU_ASSERT_TRUE_FATAL(record_read(path, &record, &o));
+    CU_ASSERT_STRING_EQUAL(o.configuration, "a = 1\n");
+    CU_ASSERT_EQUAL(o.length, 4);
+    CU_ASSERT_EQUAL(o.grid[0], ROWS);
+    CU_ASSERT_EQUAL(o.grid[1], COLUMNS);
+    CU_ASSERT_EQUAL(o.gradient[0], 0.25);
+    CU_ASSERT_EQUAL(o.gradient[1], -0.5);
+    CU_ASSERT_EQUAL(o.solver.formulation, IGABEM_FORMULATION_HOGNER);
+    CU_ASSERT_EQUAL(o.solver.froude, 0.3);
+    CU_ASSERT_FALSE(o.solver.line_term);
+    CU_ASSERT_TRUE(isnan(o.solver.stem_limit));
+    CU_ASSERT_EQUAL(o.solver.degree, problem.solver.degree);
+    for (size_t i = 0; i < galv_model_field_count(); i++) {
+        galv_field a = galv_model_field(problem.model, i), b = galv_model_field(o.model, i);
+        CU_ASSERT_EQUAL(!a.values, !b.values);
+        size_t size = a.type == GALV_TYPE_BOOL ? sizeof(bool) : sizeof(double);
+        if (a.values && b.values)
+            CU_ASSERT_EQUAL(memcmp(a.values, b.values, a.rows * a.columns * size), 0);
+    }
+    origin_free(&o);
+    record_close(&record);
 }
 
-static void fill(struct evaluation *e, uint64_t id)
+static void fill(uint64_t id, const double *u, struct evaluation *e)
 {
-    CU_ASSERT_TRUE_FATAL(evaluation_create(3, e));
-    e->id = id;
-    e->u[0] = (double)id;
-    e->u[1] = 1.0 / 3;
+    evaluation_start(id, NULL, u, e);
     e->cw = 1e-3 / (double)(id + 1);
     e->dofs = 468;
     e->solve_seconds = 1.5;
-    snprintf(e->phase, sizeof e->phase, "initial");
+    e->speeds = 2;
+    e->cw_speed[0] = 1.0 / 3;
+    e->cw_speed[1] = 2.0 / 3;
 }
 
 static void test_evaluations(void)
 {
-    struct store *store = fresh("evaluations.db");
-    struct evaluation e, back, *list;
+    const double parent[MODES] = {0, 0};
+    struct record record;
+    struct evaluation e, *list;
+    double u[2 * MODES];
+    uint64_t id[2];
     size_t n;
-    fill(&e, 7);
-    CU_ASSERT_TRUE(store_put_evaluation(store, 3, &e));
-    CU_ASSERT_EQUAL(store_find_evaluation(store, 6, 3, &back), 0);
-    CU_ASSERT_EQUAL_FATAL(store_find_evaluation(store, 7, 3, &back), 1);
-    CU_ASSERT_EQUAL(memcmp(back.u, e.u, 3 * sizeof(double)), 0);
-    CU_ASSERT_EQUAL(back.cw, e.cw);
-    CU_ASSERT_EQUAL(back.dofs, 468);
-    CU_ASSERT_EQUAL(back.solve_seconds, 1.5);
-    CU_ASSERT_TRUE(isnan(back.volume));
-    CU_ASSERT_FALSE(back.failed);
-    CU_ASSERT_STRING_EQUAL(back.phase, "initial");
-    evaluation_free(&back);
+    fresh("evaluations.db", &record);
+    fill(0, parent, &e);
+    CU_ASSERT_TRUE(record_tell(&record, &e, NULL));
+    CU_ASSERT_EQUAL_FATAL(bayesopt_ask(record.bo, 2, u, id), BAYESOPT_OK);
+    fill(id[0], u, &e);
+    CU_ASSERT_TRUE(record_tell(&record, &e, NULL));
+    CU_ASSERT_FALSE(record_tell(&record, &e, NULL)); /* told twice */
+    CU_ASSERT_PTR_NOT_NULL(strstr(core_sentence(), "already been told"));
+    record_close(&record);
 
-    struct capture capture;
-    char sentence[400];
-    capture_begin(&capture);
-    bool twice = store_put_evaluation(store, 3, &e);
-    capture_end(&capture, sentence, sizeof sentence);
-    CU_ASSERT_FALSE(twice);
-    evaluation_free(&e);
-
-    fill(&e, 2);
+    CU_ASSERT_TRUE_FATAL(search_open(&problem, path, &record));
+    double again[MODES];
+    uint64_t same;
+    CU_ASSERT_EQUAL_FATAL(bayesopt_ask(record.bo, 1, again, &same), BAYESOPT_OK);
+    CU_ASSERT_EQUAL(same, id[1]); /* asked and not told: the same point */
+    CU_ASSERT_EQUAL(memcmp(again, u + MODES, sizeof again), 0);
+    evaluation_start(id[1], NULL, again, &e);
     e.failed = true;
-    e.cw = NAN;
-    snprintf(e.stage, sizeof e.stage, "skin");
-    snprintf(e.reason, sizeof e.reason, "folded at 'u' = 0.5");
-    CU_ASSERT_TRUE(store_put_evaluation(store, 3, &e));
-    evaluation_free(&e);
-    CU_ASSERT_TRUE_FATAL(store_list_evaluations(store, 3, &list, &n));
-    CU_ASSERT_EQUAL_FATAL(n, 2);
-    CU_ASSERT_EQUAL(list[0].id, 2);
-    CU_ASSERT_TRUE(list[0].failed);
-    CU_ASSERT_TRUE(isnan(list[0].cw));
-    CU_ASSERT_STRING_EQUAL(list[0].reason, "folded at 'u' = 0.5");
-    CU_ASSERT_EQUAL(list[1].id, 7);
-    for (size_t i = 0; i < n; i++)
-        evaluation_free(&list[i]);
+    e.volume = 0.25;
+    snprintf(e.reason, sizeof e.reason, "skin: folded at 'u' = 0.5");
+    CU_ASSERT_TRUE(record_tell(&record, &e, NULL));
+
+    CU_ASSERT_TRUE_FATAL(record_evaluations(&record, &list, &n));
+    CU_ASSERT_EQUAL_FATAL(n, 3);
+    CU_ASSERT_EQUAL(list[0].id, 0);
+    CU_ASSERT_STRING_EQUAL(list[0].phase, "parent");
+    CU_ASSERT_EQUAL(list[0].cw, 1e-3);
+    CU_ASSERT_EQUAL(list[1].id, id[0]);
+    CU_ASSERT_STRING_EQUAL(list[1].phase, "initial");
+    CU_ASSERT_EQUAL(memcmp(list[1].u, u, MODES * sizeof *u), 0);
+    CU_ASSERT_EQUAL(list[1].dofs, 468);
+    CU_ASSERT_EQUAL(list[1].solve_seconds, 1.5);
+    CU_ASSERT_EQUAL_FATAL(list[1].speeds, 2);
+    CU_ASSERT_EQUAL(list[1].cw_speed[0], 1.0 / 3);
+    CU_ASSERT_EQUAL(list[1].cw_speed[1], 2.0 / 3);
+    CU_ASSERT_TRUE(isnan(list[1].volume));
+    CU_ASSERT_FALSE(list[1].failed);
+    CU_ASSERT_TRUE(list[2].failed && isnan(list[2].cw));
+    CU_ASSERT_EQUAL(list[2].volume, 0.25);
+    CU_ASSERT_STRING_EQUAL(list[2].reason, "skin: folded at 'u' = 0.5");
     free(list);
-    store_close(store);
+    record_close(&record);
 }
 
 static void test_verifications_and_sessions(void)
 {
-    struct store *store = fresh("rows.db");
-    struct verification row = {.group = "speed",
+    struct record record;
+    struct verification row = {.group = GROUP_SPEED,
                                .label = "Fr 0.28",
                                .formulation = "hogner",
                                .froude = 0.28,
@@ -161,76 +206,86 @@ static void test_verifications_and_sessions(void)
                                .note = "optimum: too thin"};
     struct verification *list;
     size_t n, sessions;
-    CU_ASSERT_TRUE(store_put_verification(store, 1, &row));
+    double seconds;
+    fresh("rows.db", &record);
+    CU_ASSERT_TRUE(record_put_verification(&record, 1, &row));
     row.refine = 1;
-    CU_ASSERT_TRUE(store_put_verification(store, 0, &row));
-    CU_ASSERT_TRUE_FATAL(store_list_verifications(store, &list, &n));
+    row.group = GROUP_FILTER;
+    CU_ASSERT_TRUE(record_put_verification(&record, 0, &row));
+    CU_ASSERT_TRUE_FATAL(record_verifications(&record, &list, &n));
     CU_ASSERT_EQUAL_FATAL(n, 2);
     CU_ASSERT_EQUAL(list[0].refine, 1);
+    CU_ASSERT_EQUAL(list[0].group, GROUP_FILTER);
     CU_ASSERT_EQUAL(list[1].refine, 2);
+    CU_ASSERT_EQUAL(list[1].group, GROUP_SPEED);
     CU_ASSERT_EQUAL(list[1].cw_parent, 1e-3);
+    CU_ASSERT_EQUAL(list[1].dofs_parent, 10);
     CU_ASSERT_TRUE(isnan(list[1].cw_best));
     CU_ASSERT_STRING_EQUAL(list[1].note, "optimum: too thin");
     free(list);
 
-    CU_ASSERT_TRUE(store_begin_session(store, 2, cli_seconds()));
-    CU_ASSERT_TRUE(store_update_session(store));
-    CU_ASSERT_TRUE(store_begin_session(store, 1, cli_seconds()));
-    double seconds = store_total_seconds(store, &sessions);
+    CU_ASSERT_TRUE(record_begin_session(&record, 2, cli_seconds()));
+    CU_ASSERT_TRUE(record_update_session(&record));
+    CU_ASSERT_TRUE(record_begin_session(&record, 1, cli_seconds()));
+    CU_ASSERT_TRUE(record_seconds(&record, &sessions, &seconds));
     CU_ASSERT_EQUAL(sessions, 2);
     CU_ASSERT_TRUE(seconds >= 0 && seconds < 60);
-    store_close(store);
+    record_close(&record);
 }
 
-static void check_unusable(const char *part)
+static void check_refused(const char *part)
 {
-    struct capture capture;
-    char sentence[600];
-    capture_begin(&capture);
-    enum store_state state = store_probe(path);
-    capture_end(&capture, sentence, sizeof sentence);
-    CU_ASSERT_EQUAL(state, STORE_UNUSABLE);
-    CU_ASSERT_TRUE(capture_is_sentence(sentence));
-    CU_ASSERT_PTR_NOT_NULL(strstr(sentence, part));
-    if (!strstr(sentence, part))
-        fprintf(stderr, "the sentence was '%s', expected '%s' in it\n", sentence, part);
+    struct record record;
+    struct origin origin;
+    CU_ASSERT_FALSE(record_read(path, &record, &origin));
+    CU_ASSERT_PTR_NULL(record.bo);
+    int said = strstr(core_sentence(), part) && strstr(core_sentence(), path);
+    if (!said)
+        fprintf(stderr, "the sentence was '%s', expected '%s' in it\n", core_sentence(), part);
+    CU_ASSERT_TRUE(said);
 }
 
-static void test_probe(void)
+static void test_foreign(void)
 {
-    snprintf(path, sizeof path, "%s/absent.db", folder);
-    CU_ASSERT_EQUAL(store_probe(path), STORE_ABSENT);
-    store_close(fresh("run.db"));
-    CU_ASSERT_EQUAL(store_probe(path), STORE_RUN);
-
+    struct record record;
+    const double newer = 3;
     snprintf(path, sizeof path, "%s/text.db", folder);
     FILE *out = fopen(path, "w");
     for (int k = 0; k < 400; k++)
         fputs("this is not a database\n", out);
     fclose(out);
-    check_unusable("text.db: ");
+    check_refused("not a database");
 
-    sqlite3 *db;
-    snprintf(path, sizeof path, "%s/other.db", folder);
-    CU_ASSERT_EQUAL(sqlite3_open(path, &db), SQLITE_OK);
-    CU_ASSERT_EQUAL(sqlite3_exec(db, "CREATE TABLE a (b)", NULL, NULL, NULL), SQLITE_OK);
-    sqlite3_close(db);
-    check_unusable("not the database of a hullopt run");
+    /* a study of the search alone */
+    snprintf(path, sizeof path, "%s/study.db", folder);
+    CU_ASSERT_TRUE_FATAL(search_open(&problem, path, &record));
+    record_close(&record);
+    check_refused("not the record of a hullopt run");
+
+    fresh("newer.db", &record);
+    CU_ASSERT_TRUE(record_put_array(&record, "hullopt.format", 1, 1, &newer));
+    record_close(&record);
+    check_refused("a newer hullopt wrote it: format 3");
+
+    fresh("short.db", &record);
+    CU_ASSERT_TRUE(record_put_array(&record, "latent.mean", 1, 1, &newer));
+    record_close(&record);
+    check_refused("latent space is damaged");
 }
 
 /* A page of the file overwritten, as a failing disk does. */
 static void test_damaged(void)
 {
-    struct store *store = fresh("damaged.db");
+    struct record record;
     double *values = calloc(20000, sizeof *values);
+    fresh("damaged.db", &record);
     for (int k = 0; k < 8; k++) {
         char name[8];
         snprintf(name, sizeof name, "a%d", k);
-        CU_ASSERT_TRUE(store_put_array(store, name, 1, 20000, values));
+        CU_ASSERT_TRUE(record_put_array(&record, name, 1, 20000, values));
     }
     free(values);
-    store_close(store);
-    CU_ASSERT_EQUAL(store_probe(path), STORE_RUN);
+    record_close(&record);
     FILE *file = fopen(path, "r+");
     unsigned char noise[4096];
     for (size_t k = 0; k < sizeof noise; k++)
@@ -240,25 +295,57 @@ static void test_damaged(void)
         fwrite(noise, 1, sizeof noise, file);
     }
     fclose(file);
-    check_unusable("damaged");
+    check_refused(path);
+}
+
+/* Reading changes nothing: neither the file nor its folder is touched. */
+static void test_reading(void)
+{
+    char closed[160];
+    struct record record;
+    struct origin origin;
+    struct stat before, after;
+    snprintf(closed, sizeof closed, "%s/closed", folder);
+    CU_ASSERT_EQUAL(mkdir(closed, 0700), 0);
+    fresh("closed/run.db", &record);
+    record_close(&record);
+    CU_ASSERT_EQUAL(chmod(path, 0400), 0);
+    CU_ASSERT_EQUAL(chmod(closed, 0500), 0);
+    CU_ASSERT_EQUAL(stat(path, &before), 0);
+    CU_ASSERT_TRUE(record_read(path, &record, &origin));
+    CU_ASSERT_FALSE(record_put_text(&record, "stop", "no"));
+    origin_free(&origin);
+    record_close(&record);
+    CU_ASSERT_EQUAL(stat(path, &after), 0);
+    CU_ASSERT_TRUE(before.st_mtim.tv_sec == after.st_mtim.tv_sec &&
+                   before.st_mtim.tv_nsec == after.st_mtim.tv_nsec);
+    CU_ASSERT_EQUAL(chmod(closed, 0700), 0);
 }
 
 static const struct check_case cases[] = {
     {"texts and arrays", test_texts_and_arrays},
-    {"latent space", test_latent},
+    {"latent space and settings", test_origin},
     {"evaluations", test_evaluations},
     {"verification rows and sessions", test_verifications_and_sessions},
-    {"absent, foreign and proper files", test_probe},
+    {"foreign, newer and incomplete files", test_foreign},
     {"a damaged file", test_damaged},
+    {"reading alone", test_reading},
 };
+
+static void prepare(void)
+{
+    snprintf(folder, sizeof folder, "%s/hullopt_store_XXXXXX", check_scratch());
+    CU_ASSERT_PTR_NOT_NULL_FATAL(mkdtemp(folder));
+    make_problem();
+}
 
 int main(void)
 {
-    snprintf(folder, sizeof folder, "%s/hullopt_store_XXXXXX", check_scratch());
-    if (!mkdtemp(folder))
-        return EXIT_FAILURE;
-    int code = check_main("hullopt store", cases, sizeof cases / sizeof *cases);
+    struct check_case all[1 + sizeof cases / sizeof *cases] = {{"a problem", prepare}};
+    memcpy(all + 1, cases, sizeof cases);
+    int code = check_main("hullopt store", all, sizeof all / sizeof *all);
     char command[160];
+    problem_free(&problem);
     snprintf(command, sizeof command, "rm -r %s", folder);
     return system(command) == 0 ? code : EXIT_FAILURE;
 }

@@ -1,26 +1,29 @@
 /* What the rows of a verification are taken to mean. */
 #include "check.h"
-#include "verify.h"
+#include "core/verify.h"
+#include "report/verdict.h"
 
 #include <string.h>
 
-static struct verification row(const char *group, double before, double after)
+static struct verification row(enum verification_group group, double before, double after)
 {
-    struct verification v = {
-        .cw_parent = before, .cw_best = after, .cw_pressure_parent = NAN, .cw_pressure_best = NAN};
-    snprintf(v.group, sizeof v.group, "%s", group);
+    struct verification v = {.group = group,
+                             .cw_parent = before,
+                             .cw_best = after,
+                             .cw_pressure_parent = NAN,
+                             .cw_pressure_best = NAN};
     return v;
 }
 
 static void test_confirmed(void)
 {
     const struct verification rows[] = {
-        row("objective", 1.6e-3, 0.8e-3),   row("formulation", 1.9e-3, 1.2e-3),
-        row("formulation", 1.7e-3, 1.0e-3), row("stern", 1.6e-3, 0.9e-3),
-        row("resolution", 1.6e-3, 0.85e-3), row("speed", 1.0e-3, 0.99e-3),
+        row(GROUP_OBJECTIVE, 1.6e-3, 0.8e-3),   row(GROUP_FORMULATION, 1.9e-3, 1.2e-3),
+        row(GROUP_FORMULATION, 1.7e-3, 1.0e-3), row(GROUP_STERN, 1.6e-3, 0.9e-3),
+        row(GROUP_RESOLUTION, 1.6e-3, 0.85e-3), row(GROUP_SPEED, 1.0e-3, 0.99e-3),
     };
     struct verdict v;
-    verify_judge(rows, 6, &v);
+    verdict_reach(rows, 6, &v);
     CHECK_CLOSE(v.claimed, 0.5, 1e-15);
     CU_ASSERT_EQUAL(v.models, 3);
     CU_ASSERT_EQUAL(v.confirm, 3);
@@ -31,12 +34,12 @@ static void test_confirmed(void)
 static void test_only_objective(void)
 {
     const struct verification rows[] = {
-        row("objective", 2.6e-3, 0.9e-3),   row("formulation", 1.9e-3, 2.0e-3),
-        row("formulation", 1.6e-3, 1.5e-3), row("resolution", 2.6e-3, 2.0e-3),
-        row("speed", 1.0e-3, 1.2e-3),
+        row(GROUP_OBJECTIVE, 2.6e-3, 0.9e-3),   row(GROUP_FORMULATION, 1.9e-3, 2.0e-3),
+        row(GROUP_FORMULATION, 1.6e-3, 1.5e-3), row(GROUP_RESOLUTION, 2.6e-3, 2.0e-3),
+        row(GROUP_SPEED, 1.0e-3, 1.2e-3),
     };
     struct verdict v;
-    verify_judge(rows, 5, &v);
+    verdict_reach(rows, 5, &v);
     CU_ASSERT_TRUE(v.only_objective);
     CU_ASSERT_FALSE(v.formulations || v.resolution || v.speeds);
     CU_ASSERT_EQUAL(v.deny, 1);
@@ -47,27 +50,27 @@ static void test_only_objective(void)
 /* Kochin function and pressure of the same solution contradict each other: that is said. */
 static void test_pressure(void)
 {
-    struct verification rows[] = {row("objective", 1.0, 0.5), row("formulation", 1.0, 0.6)};
+    struct verification rows[] = {row(GROUP_OBJECTIVE, 1.0, 0.5), row(GROUP_FORMULATION, 1.0, 0.6)};
     struct verdict v;
     rows[0].cw_pressure_parent = 1.0;
     rows[0].cw_pressure_best = 1.7;
-    verify_judge(rows, 2, &v);
+    verdict_reach(rows, 2, &v);
     CHECK_CLOSE(v.pressure, -0.7, 1e-15);
     CU_ASSERT_PTR_NOT_NULL(strstr(v.statement, "+70.0 %"));
     rows[0].cw_pressure_best = 0.6;
-    verify_judge(rows, 2, &v);
+    verdict_reach(rows, 2, &v);
     CU_ASSERT_PTR_NULL(strstr(v.statement, "pressure"));
 }
 
 static void test_divided(void)
 {
     const struct verification rows[] = {
-        row("objective", 1.0, 0.5),
-        row("formulation", 1.0, 0.6),
-        row("formulation", 1.0, 1.1),
+        row(GROUP_OBJECTIVE, 1.0, 0.5),
+        row(GROUP_FORMULATION, 1.0, 0.6),
+        row(GROUP_FORMULATION, 1.0, 1.1),
     };
     struct verdict v;
-    verify_judge(rows, 3, &v);
+    verdict_reach(rows, 3, &v);
     CU_ASSERT_FALSE(v.formulations);
     CU_ASSERT_FALSE(v.only_objective);
     CU_ASSERT_FALSE(v.has_resolution || v.has_speeds);
@@ -77,62 +80,66 @@ static void test_divided(void)
 /* A row without a result is no evidence either way. */
 static void test_missing(void)
 {
-    const struct verification rows[] = {row("objective", 1.0, 0.5), row("formulation", 1.0, NAN)};
+    const struct verification rows[] = {row(GROUP_OBJECTIVE, 1.0, 0.5),
+                                        row(GROUP_FORMULATION, 1.0, NAN)};
     struct verdict v;
-    verify_judge(rows, 2, &v);
+    verdict_reach(rows, 2, &v);
     CU_ASSERT_EQUAL(v.models, 0);
     CU_ASSERT_FALSE(v.formulations);
     CU_ASSERT_PTR_NOT_NULL(strstr(v.statement, "unconfirmed"));
-    verify_judge(rows, 0, &v);
+    verdict_reach(rows, 0, &v);
     CU_ASSERT_FALSE(v.formulations || v.only_objective);
 }
 
 static void test_filter(void)
 {
-    struct verification rows[] = {row("objective", 1.0e-3, 0.5e-3),
-                                  row("formulation", 1e-3, 0.6e-3), row("filter", 1.0e-3, 0.6e-3)};
+    struct verification rows[] = {row(GROUP_OBJECTIVE, 1.0e-3, 0.5e-3),
+                                  row(GROUP_FORMULATION, 1e-3, 0.6e-3),
+                                  row(GROUP_FILTER, 1.0e-3, 0.6e-3)};
     struct verdict v;
-    verify_judge(rows, 3, &v);
+    verdict_reach(rows, 3, &v);
     CU_ASSERT(v.has_filter && v.filter);
     CU_ASSERT_PTR_NULL(strstr(v.statement, "filter"));
     rows[2].cw_best = 1.5e-3;
-    verify_judge(rows, 3, &v);
+    verdict_reach(rows, 3, &v);
     CU_ASSERT(v.has_filter && !v.filter);
     CU_ASSERT_PTR_NOT_NULL(strstr(v.statement, "too full"));
 }
 
 static void test_no_gain(void)
 {
-    const struct verification rows[] = {row("objective", 1.0, 1.0), row("formulation", 1.0, 1.0)};
+    const struct verification rows[] = {row(GROUP_OBJECTIVE, 1.0, 1.0),
+                                        row(GROUP_FORMULATION, 1.0, 1.0)};
     struct verdict v;
-    verify_judge(rows, 2, &v);
+    verdict_reach(rows, 2, &v);
     CU_ASSERT_FALSE(v.formulations || v.only_objective);
     CU_ASSERT_PTR_NOT_NULL(strstr(v.statement, "nothing better"));
 }
 
 static void test_plan(void)
 {
-    struct config config = {.verify_refine = 2, .verify_froudes = 2, .verify_froude = {0.28, 0.41}};
-    igabem_options frozen, options[VERIFY_MOST];
+    struct config config = {.verify_refine = 2};
+    struct problem problem = {.config = &config, .speeds = 2};
+    igabem_options *frozen = &problem.solver, options[VERIFY_MOST];
     struct verification rows[VERIFY_MOST];
-    igabem_options_init(&frozen);
-    frozen.froude = 0.35;
-    frozen.formulation = IGABEM_FORMULATION_NEUMANN_KELVIN_STERN;
-    frozen.stern_length = 0.35;
-    frozen.cutoff_angle = 5.0;
-    frozen.stem_limit = 0.35;
-    igabem_options speeds[2] = {frozen, frozen};
-    speeds[0].froude = 0.28;
-    speeds[0].stern_length = 0.224; /* by the rule at that speed */
-    speeds[1].froude = 0.41;
-    size_t n = verify_plan(&config, &frozen, speeds, rows, options);
+    igabem_options_init(frozen);
+    frozen->froude = 0.35;
+    frozen->formulation = IGABEM_FORMULATION_NEUMANN_KELVIN_STERN;
+    frozen->stern_length = 0.35;
+    frozen->cutoff_angle = 5.0;
+    frozen->stem_limit = 0.35;
+    problem.speed[0] = problem.speed[1] = *frozen;
+    problem.speed[0].froude = 0.28;
+    problem.speed[0].stern_length = 0.224; /* by the rule at that speed */
+    problem.speed[1].froude = 0.41;
+    size_t n = verify_plan(&problem, rows, options);
     CU_ASSERT_EQUAL(n, 1 + 4 + 2 + 1 + 1 + 2);
-    CU_ASSERT_STRING_EQUAL(rows[0].group, "objective");
+    CU_ASSERT_EQUAL(rows[0].group, GROUP_OBJECTIVE);
     for (size_t i = 1; i < n; i++) {
-        int speed = options[i].froude != frozen.froude;
-        int changed = (options[i].formulation != frozen.formulation) +
-                      (!speed && options[i].stern_length != frozen.stern_length) +
-                      (options[i].refine != frozen.refine) + speed +
+        int speed = options[i].froude != frozen->froude;
+        int changed = (options[i].formulation != frozen->formulation) +
+                      (!speed && options[i].stern_length != frozen->stern_length) +
+                      (options[i].refine != frozen->refine) + speed +
                       (isnan(options[i].cutoff_angle) && isnan(options[i].stem_limit));
         CU_ASSERT_EQUAL(changed, 1);
         CU_ASSERT_EQUAL(options[i].froude, rows[i].froude);
@@ -140,12 +147,12 @@ static void test_plan(void)
     }
     CU_ASSERT_EQUAL(options[n - 2].stern_length, 0.224);
     CU_ASSERT_EQUAL(rows[n - 2].stern_length, 0.224);
-    frozen.formulation = IGABEM_FORMULATION_NEUMANN_KELVIN;
+    frozen->formulation = IGABEM_FORMULATION_NEUMANN_KELVIN;
     config.verify_refine = 1;
-    config.verify_froudes = 0;
-    CU_ASSERT_EQUAL(verify_plan(&config, &frozen, speeds, rows, options), 1 + 4 + 1);
-    frozen.cutoff_angle = INFINITY; /* submerged: no filter to choose */
-    CU_ASSERT_EQUAL(verify_plan(&config, &frozen, speeds, rows, options), 1 + 4);
+    problem.speeds = 0;
+    CU_ASSERT_EQUAL(verify_plan(&problem, rows, options), 1 + 4 + 1);
+    frozen->cutoff_angle = INFINITY; /* submerged: no filter to choose */
+    CU_ASSERT_EQUAL(verify_plan(&problem, rows, options), 1 + 4);
 }
 
 static const struct check_case cases[] = {

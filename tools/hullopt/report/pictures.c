@@ -1,6 +1,6 @@
 #include "report/pictures.h"
 
-#include "outcome.h"
+#include "core/constraints.h"
 #include "plot/ship.h"
 
 #include <math.h>
@@ -26,7 +26,7 @@ void draw_history(FILE *out, const struct results *r)
         t->value = e->cw;
         t->initial = strcmp(e->phase, "initial") == 0 || e->id == 0;
         t->failed = e->failed;
-        t->infeasible = !outcome_allowed(&r->limits, e, r->baseline);
+        t->infeasible = !outcome_allowed(r->problem->config, e, r->baseline);
         if (e->failed)
             snprintf(t->note, sizeof t->note, "%llu: %s", (unsigned long long)e->id, e->reason);
         else
@@ -43,15 +43,20 @@ void draw_history(FILE *out, const struct results *r)
 
 static struct plot_hull hull_of(const struct results *r, int which, const nurbs_surface **surface)
 {
-    *surface = r->designs[which].full;
+    *surface = nurbs_patches_get(nurbs_hull_full(results_hull(r, which)), 0);
     return (struct plot_hull){legend[which].text, 1, surface, pens[which]};
+}
+
+static const nurbs_surface *wetted_of(const struct results *r, int which)
+{
+    return nurbs_patches_get(nurbs_hull_wetted(results_hull(r, which)), 0);
 }
 
 void draw_lines(FILE *out, const struct results *r)
 {
     const nurbs_surface *surface[2];
     const struct plot_hull hulls[2] = {hull_of(r, 0, &surface[0]), hull_of(r, 1, &surface[1])};
-    const struct plot_lines lines = {r->parent.length, 0, 20, 8, 3};
+    const struct plot_lines lines = {problem_length(r->problem), 0, 20, 8, 3};
     struct plot plot;
     if (plot_lines_plan(&plot, FULL, &lines, 2, hulls))
         plot_embed(&plot, out);
@@ -65,12 +70,12 @@ void draw_section_areas(FILE *out, const struct results *r)
     struct plot_frame f = {.left = 62, .top = 34, .width = HALF - 76, .height = AREAS - 80};
     double end[2], station[N], area[2][N];
     struct plot plot;
-    if (!plot_perpendiculars(&hull, 0, r->parent.length, end))
+    if (!plot_perpendiculars(&hull, 0, problem_length(r->problem), end))
         return;
     f.x = (struct plot_axis){.low = -1, .high = 21, .whole = true, .label = "station"};
     f.y = (struct plot_axis){.low = 0, .high = -INFINITY, .label = "section area, m²"};
     for (int k = 0; k < 2; k++) {
-        const nurbs_surface *wetted = r->designs[k].wetted;
+        const nurbs_surface *wetted = wetted_of(r, k);
         const struct plot_hull below = {.n = 1, .surfaces = &wetted};
         for (size_t i = 0; i < N; i++) {
             station[i] = -1 + 22.0 * (double)i / (N - 1);
@@ -100,30 +105,31 @@ static void draw_hull(FILE *out, const char *title, const struct plot_view *view
 
 void draw_original(FILE *out, const struct results *r)
 {
-    const struct plot_view view = {.rows = nurbs_grid_rows(r->parent.grid),
-                                   .columns = nurbs_grid_columns(r->parent.grid),
-                                   .points = nurbs_grid_points(r->parent.grid)};
+    const struct plot_view view = {.rows = nurbs_grid_rows(r->problem->grid),
+                                   .columns = nurbs_grid_columns(r->problem->grid),
+                                   .points = nurbs_grid_points(r->problem->grid)};
     draw_hull(out, "Original", &view);
 }
 
 void draw_optimum(FILE *out, const struct results *r)
 {
-    size_t n = r->latent.coordinates, points = n / 3;
+    const galv_model *model = r->problem->model;
+    size_t points = galv_model_points(model), n = 3 * points;
     double *moved = malloc(n * sizeof *moved), *change = malloc(points * sizeof *change), most = 0;
-    const double *parent = nurbs_grid_points(r->parent.grid);
-    if (moved && change) {
-        latent_displace(&r->latent, r->best->u, moved);
+    const double *parent = nurbs_grid_points(r->problem->grid);
+    if (moved && change && galv_displace(model, r->best->u, moved) == GALV_OK) {
         for (size_t k = 0; k < points; k++) {
-            const double *d = moved + 3 * k;
-            double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+            double d[3], length = 0;
+            for (size_t c = 0; c < 3; c++) {
+                d[c] = moved[3 * k + c] - parent[3 * k + c];
+                length = hypot(length, d[c]);
+            }
             change[k] = d[1] < 0 ? -length : length;
             most = fmax(most, length);
         }
-        for (size_t k = 0; k < n; k++)
-            moved[k] += parent[k];
         const struct plot_view view = {
-            nurbs_grid_rows(r->parent.grid),
-            nurbs_grid_columns(r->parent.grid),
+            nurbs_grid_rows(r->problem->grid),
+            nurbs_grid_columns(r->problem->grid),
             moved,
             most > 0 ? change : NULL,
             {PLOT_DIVERGING, {.low = -most, .high = most, .unit = 1000, .label = "outwards, mm"}}};
@@ -135,14 +141,11 @@ void draw_optimum(FILE *out, const struct results *r)
 
 static struct plot_latent latent_of(const struct results *r)
 {
-    const struct latent *l = &r->latent;
-    return (struct plot_latent){l->modes,
-                                l->spectrum,
-                                l->parameters,
-                                l->eigenvalues,
-                                l->mse,
-                                l->trace,
-                                results_number(r->settings, "latent.variance")};
+    const galv_model *model = r->problem->model;
+    return (struct plot_latent){galv_model_modes(model),      galv_model_spectrum(model),
+                                galv_model_parameters(model), galv_model_eigenvalues(model),
+                                galv_model_mse(model),        galv_model_trace(model),
+                                r->problem->config->variance};
 }
 
 static void draw_latent(FILE *out, const char *title, const struct results *r,
@@ -169,15 +172,17 @@ void draw_error(FILE *out, const struct results *r)
 
 void draw_mode(FILE *out, const struct results *r, size_t mode)
 {
+    const galv_model *model = r->problem->model;
     struct plot plot;
     char title[32];
     const struct plot_mode shown = {mode + 1,
-                                    nurbs_grid_rows(r->parent.grid),
-                                    nurbs_grid_columns(r->parent.grid),
-                                    nurbs_grid_points(r->parent.grid),
-                                    r->latent.vectors + mode * r->latent.coordinates,
-                                    r->latent.eigenvalues[mode],
-                                    r->latent.trace};
+                                    nurbs_grid_rows(r->problem->grid),
+                                    nurbs_grid_columns(r->problem->grid),
+                                    nurbs_grid_points(r->problem->grid),
+                                    galv_model_vectors(model) +
+                                        mode * galv_model_coordinates(model),
+                                    galv_model_eigenvalues(model)[mode],
+                                    galv_model_trace(model)};
     snprintf(title, sizeof title, "Mode %zu", mode + 1);
     if (!plot_open(&plot, HALF, HULL, title))
         return;
@@ -189,7 +194,7 @@ void draw_mode(FILE *out, const struct results *r, size_t mode)
 static struct plot_waves waves_of(const struct results *r, int which)
 {
     const struct waves *w = &r->waves[which && r->waves[1].elevation];
-    const nurbs_surface *wetted = r->designs[which].wetted;
+    const nurbs_surface *wetted = wetted_of(r, which);
     const struct plot_hull hull = {.n = 1, .surfaces = &wetted};
     struct plot_waves waves = {legend[which].text, w->nx, w->ny, 0, w->x0, w->dx, w->y0, w->dy,
                                w->elevation,       NULL};
@@ -228,7 +233,7 @@ void draw_wave_cut(FILE *out, const struct results *r, double share)
     for (size_t i = 0; i < n; i++) {
         x[i] = waves->x0 + (double)i * waves->dx;
         for (size_t k = 0; k < 2; k++)
-            x[(k + 1) * n + i] = plot_wave_at(&waves[k], x[i], share * r->parent.length);
+            x[(k + 1) * n + i] = plot_wave_at(&waves[k], x[i], share * problem_length(r->problem));
     }
     plot_include(&f.y, 2 * n, x + n);
     plot_nice(&f.y, 4);

@@ -3,7 +3,7 @@
 #ifndef HULLOPT_PICTURES_H
 #define HULLOPT_PICTURES_H
 
-#include "results.h"
+#include "report/results.h"
 
 #include <stdio.h>
 

@@ -1,0 +1,179 @@
+#include "cli/run.h"
+
+#include "cli.h"
+#include "cli/folder.h"
+#include "core/optimise.h"
+#include "core/search.h"
+#include "report/outputs.h"
+#include "report/results.h"
+#include "shape_yaml.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* A progress line for each stage. */
+struct watch {
+    struct cli_progress progress;
+    const char *stage;
+};
+
+static void show(void *user_data, const char *stage, double fraction, const char *detail)
+{
+    struct watch *watch = user_data;
+    if (watch->stage && strcmp(watch->stage, stage) != 0)
+        cli_progress_end(&watch->progress);
+    if (!watch->stage || strcmp(watch->stage, stage) != 0)
+        cli_progress_start(&watch->progress, stage);
+    watch->stage = stage;
+    cli_progress_update(&watch->progress, fraction, detail);
+}
+
+static bool say(bool ok)
+{
+    return ok || cli_refuse("%s", core_sentence());
+}
+
+/* A new run or an old one; refuses what would mix two. */
+static bool prepare(const struct run_options *options, struct problem *problem,
+                    const galv_shape *shape, const char *path, const struct core_watch *watch)
+{
+    if (access(path, F_OK) != 0)
+        return say(optimise_begin(problem, shape, path, watch));
+    if (options->resume)
+        return say(optimise_resume(problem, path));
+    struct record record;
+    struct origin origin;
+    if (!say(record_read(path, &record, &origin)))
+        return false;
+    record_close(&record);
+    origin_free(&origin);
+    return cli_refuse("%s holds a run already: continue it with --resume or choose another folder",
+                      options->out);
+}
+
+static bool report(const struct run_options *options, struct problem *problem,
+                   const struct record *record)
+{
+    struct results results;
+    if (!say(results_read(problem, record, &results)))
+        return false;
+    bool ok = outputs_write(&results, options->out, options->json);
+    results_free(&results);
+    return ok;
+}
+
+static bool work(const struct run_options *options, struct problem *problem,
+                 const galv_shape *shape, const char *path, const struct core_watch *watch)
+{
+    struct record record;
+    bool ok = say(search_open(problem, path, &record));
+    ok = ok && say(record_begin_session(&record, options->threads, options->start) &&
+                   optimise_run(problem, shape, &record, watch));
+    cli_progress_end(&((struct watch *)watch->user_data)->progress);
+    ok = ok && report(options, problem, &record);
+    record_close(&record);
+    return ok;
+}
+
+static bool run_in_folder(const struct run_options *options, struct problem *problem,
+                          const galv_shape *shape)
+{
+    struct folder folder;
+    struct watch lines = {0};
+    const struct core_watch watch = {show, &lines};
+    if (!folder_open(&folder, options->out))
+        return false;
+    char *path = folder_join(options->out, "run.db");
+    bool ready = path && prepare(options, problem, shape, path, &watch);
+    bool ok = ready && work(options, problem, shape, path, &watch);
+    if (ready)
+        folder_close(&folder);
+    else
+        folder_abandon(&folder);
+    free(path);
+    return ok;
+}
+
+int run_command(const struct run_options *options)
+{
+    struct config config;
+    struct problem problem;
+    if (!config_read(options->configuration, &options->overrides, &config))
+        return CLI_FAILED;
+    bool ok = say(problem_read(&config, &problem));
+    if (ok) {
+        const nurbs_grid *grid = problem.grid;
+        galv_shape *shape =
+            shape_yaml_read(config.shape, nurbs_grid_rows(grid) * nurbs_grid_columns(grid),
+                            nurbs_grid_points(grid));
+        ok = shape && run_in_folder(options, &problem, shape);
+        galv_shape_free(shape);
+        problem_free(&problem);
+    }
+    config_free(&config);
+    return ok ? CLI_OK : CLI_FAILED;
+}
+
+/* The hulls and figures of a record, built again. */
+static bool restore(const char *path, struct record *record, struct config *config,
+                    struct problem *problem, struct results *results)
+{
+    struct origin origin;
+    if (!say(record_read(path, record, &origin)))
+        return false;
+    bool ok = config_restore(origin.configuration, config) ||
+              cli_refuse("%s: the configuration is damaged", path);
+    if (ok) {
+        ok = problem_restore(config, origin.model, origin.grid, origin.length, problem);
+        origin.model = NULL;
+        problem->solver = origin.solver;
+        ok = (ok && results_read(problem, record, results)) ||
+             cli_refuse("%s: %s", path, core_sentence());
+        if (!ok) {
+            problem_free(problem);
+            config_free(config);
+        }
+    }
+    origin_free(&origin);
+    if (!ok)
+        record_close(record);
+    return ok;
+}
+
+/* Where the files go; NULL: nowhere, which is said. */
+static const char *choose_folder(const char *folder, const char *out)
+{
+    if (out || access(folder, W_OK) == 0)
+        return out ? out : folder;
+    fprintf(stderr, "%s: warning: %s: %s; no file is written, --out takes them elsewhere\n",
+            cli_name(), folder, strerror(errno));
+    return NULL;
+}
+
+int report_command(const char *folder, const char *out, bool json)
+{
+    struct record record;
+    struct config config;
+    struct problem problem;
+    struct results results;
+    struct folder made = {.lock = -1};
+    char *path = folder_join(folder, "run.db");
+    bool ok = path != NULL;
+    if (ok && access(path, F_OK) != 0)
+        ok = cli_refuse("%s: no such file; is %s the folder of a run?", path, folder);
+    if (ok && restore(path, &record, &config, &problem, &results)) {
+        ok = (!out || folder_open(&made, out)) &&
+             outputs_write(&results, choose_folder(folder, out), json);
+        folder_close(&made);
+        results_free(&results);
+        problem_free(&problem);
+        config_free(&config);
+        record_close(&record);
+    } else {
+        ok = false;
+    }
+    free(path);
+    return ok ? CLI_OK : CLI_FAILED;
+}

@@ -1,0 +1,111 @@
+#include "core/evaluate.h"
+
+#include "cli.h"
+
+#include <math.h>
+#include <stdio.h>
+
+void evaluation_start(uint64_t id, const char *phase, const double *u, struct evaluation *e)
+{
+    *e = (struct evaluation){.id = id,
+                             .phase = phase,
+                             .u = u,
+                             .cw = NAN,
+                             .cw_pressure = NAN,
+                             .rw = NAN,
+                             .share_beyond_cutoff = NAN,
+                             .condition = NAN,
+                             .volume = NAN,
+                             .volume_ratio = NAN,
+                             .wetted_area = NAN,
+                             .bound = NAN};
+    for (size_t i = 0; i < CONFIG_FROUDE_MOST; i++)
+        e->cw_speed[i] = NAN;
+}
+
+static bool measure(const struct problem *problem, const struct design *design,
+                    struct evaluation *e)
+{
+    const nurbs_hydrostatics *h = nurbs_hull_hydrostatics(design->hull);
+    e->volume = h->volume;
+    e->volume_ratio = h->volume / nurbs_hull_hydrostatics(problem->parent.hull)->volume;
+    e->wetted_area = h->wetted_area;
+    e->bound = nurbs_hull_bound(design->hull);
+    double change = e->volume_ratio - 1, most = problem->config->displacement;
+    return isnan(most) || fabs(change) <= most ||
+           core_fail("displacement: displacement differs by %+.2f %% from the parent's, allowed "
+                     "%.2f %%",
+                     100 * change, 100 * most);
+}
+
+static bool compute_forces(const igabem_solution *solution, igabem_forces *forces)
+{
+    if (igabem_forces_compute(solution, forces) != IGABEM_OK)
+        return core_fail("forces: %s", igabem_last_error());
+    return (forces->cw > 0 && isfinite(forces->cw)) ||
+           core_fail("forces: C_w is %g at Fr %g, expected a positive number", forces->cw,
+                     igabem_solution_options(solution)->froude);
+}
+
+static bool keep(igabem_solution *const *solutions, struct evaluation *e)
+{
+    igabem_forces forces;
+    for (size_t i = 0; i < e->speeds; i++) {
+        if (!compute_forces(solutions[1 + i], &forces))
+            return false;
+        e->cw_speed[i] = forces.cw;
+    }
+    if (!compute_forces(solutions[0], &forces))
+        return false;
+    e->cw = forces.cw;
+    e->cw_pressure = forces.cw_pressure;
+    e->rw = forces.rw;
+    e->share_beyond_cutoff = forces.share_beyond_cutoff;
+    e->condition = forces.condition;
+    e->dofs = forces.dofs;
+    return true;
+}
+
+/* The speed of the search, and the others when the configuration bounds C_w there. */
+static bool solve(const struct problem *problem, const igabem_hull *body, struct evaluation *e)
+{
+    igabem_solution *solutions[1 + CONFIG_FROUDE_MOST];
+    igabem_options options[1 + CONFIG_FROUDE_MOST];
+    e->speeds = isnan(problem->config->speeds) ? 0 : problem->speeds;
+    options[0] = problem->solver;
+    for (size_t i = 0; i < e->speeds; i++)
+        options[1 + i] = problem->speed[i];
+    if (igabem_solve_many(body, 1 + e->speeds, options, solutions) != IGABEM_OK)
+        return core_fail("solve: %s", igabem_last_error());
+    bool ok = keep(solutions, e);
+    for (size_t i = 0; i <= e->speeds; i++)
+        igabem_solution_free(solutions[i]);
+    return ok;
+}
+
+static void finish(const struct problem *problem, const struct design *design, double start,
+                   struct evaluation *e)
+{
+    bool ok = design && measure(problem, design, e);
+    double built = cli_seconds();
+    ok = ok && solve(problem, design->body, e);
+    e->geometry_seconds = built - start;
+    e->solve_seconds = cli_seconds() - built;
+    e->failed = !ok;
+    if (!ok)
+        snprintf(e->reason, sizeof e->reason, "%s", core_sentence());
+}
+
+void evaluate(struct problem *problem, struct evaluation *e)
+{
+    struct design design;
+    double start = cli_seconds();
+    bool built = problem_build(problem, e->u, &design);
+    finish(problem, built ? &design : NULL, start, e);
+    design_free(&design);
+}
+
+void evaluate_parent(struct problem *problem, struct evaluation *e)
+{
+    finish(problem, &problem->parent, cli_seconds(), e);
+}

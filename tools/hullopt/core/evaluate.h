@@ -1,0 +1,36 @@
+/* The objective: C_w of a latent point, with everything a record of it needs. */
+#ifndef HULLOPT_EVALUATE_H
+#define HULLOPT_EVALUATE_H
+
+#include "core/problem.h"
+
+#include <stdint.h>
+
+enum { REASON_SIZE = 256 };
+
+/* One evaluated design. Figures are NAN where the design did not get that far. */
+struct evaluation {
+    uint64_t id;       /* of the search; 0: the parent */
+    const char *phase; /* "parent", "initial", "global", ... */
+    const double *u;   /* latent point, borrowed */
+    bool failed;
+    char reason[REASON_SIZE]; /* of the failure, "skin: ..."; else "" */
+    double cw, cw_pressure, rw, share_beyond_cutoff, condition;
+    size_t speeds; /* of cw_speed; 0: not solved at other speeds */
+    double cw_speed[CONFIG_FROUDE_MOST];
+    double volume, volume_ratio, wetted_area, bound;
+    size_t dofs;
+    double propose_seconds, geometry_seconds, solve_seconds;
+};
+
+/* Everything else NAN, 0 or "". */
+void evaluation_start(uint64_t id, const char *phase, const double *u,
+                      struct evaluation *evaluation);
+
+/* Fills everything of an evaluation that was started. A design that cannot be evaluated is a
+ * result, not an error. */
+void evaluate(struct problem *problem, struct evaluation *evaluation);
+/* The parent, which is built already. */
+void evaluate_parent(struct problem *problem, struct evaluation *evaluation);
+
+#endif

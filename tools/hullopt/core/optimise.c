@@ -1,0 +1,105 @@
+#include "core/optimise.h"
+
+#include "core/constraints.h"
+#include "core/search.h"
+#include "core/verify.h"
+#include "core/waves.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool write_record(struct problem *problem, const char *path)
+{
+    struct record record;
+    bool ok = search_open(problem, path, &record) && record_put_origin(&record, problem);
+    record_close(&record);
+    return ok;
+}
+
+/* The record is made under another name and renamed once complete. */
+bool optimise_begin(struct problem *problem, const galv_shape *shape, const char *path,
+                    const struct core_watch *watch)
+{
+    char *fresh = malloc(strlen(path) + sizeof ".new");
+    if (!fresh)
+        return core_no_memory();
+    strcat(strcpy(fresh, path), ".new");
+    record_remove(fresh);
+    bool ok = problem_reduce(problem, shape, watch) && write_record(problem, fresh);
+    if (ok && rename(fresh, path) != 0)
+        ok = core_fail("%s: %s", path, strerror(errno));
+    if (!ok)
+        record_remove(fresh);
+    free(fresh);
+    return ok;
+}
+
+bool optimise_resume(struct problem *problem, const char *path)
+{
+    char difference[400];
+    struct record record;
+    struct origin origin;
+    if (!record_read(path, &record, &origin))
+        return false;
+    record_close(&record);
+    bool ok = !config_difference(problem->config->text, origin.configuration, difference,
+                                 sizeof difference) ||
+              core_fail("%s was started with another configuration (%s): resume with that one or "
+                        "choose another folder",
+                        path, difference);
+    if (ok) {
+        ok = problem_recall(problem, origin.model, origin.gradient);
+        origin.model = NULL;
+    }
+    origin_free(&origin);
+    return ok;
+}
+
+static bool build_best(struct problem *problem, const struct record *record, double *u)
+{
+    struct evaluation *list;
+    size_t n;
+    bool ok = record_evaluations(record, &list, &n);
+    const struct evaluation *best = ok ? outcome_best(problem->config, n, list) : NULL;
+    if (best)
+        memcpy(u, best->u, galv_model_modes(problem->model) * sizeof *u);
+    if (best && best->id != 0)
+        ok = problem_set_best(problem, u);
+    free(list);
+    return ok;
+}
+
+/* The parameters of the original family nearest to the best design. */
+static bool back_map(const struct problem *problem, const galv_shape *shape, const double *u,
+                     struct record *record)
+{
+    size_t n = galv_shape_parameters(shape), rows, columns;
+    double residual, *known, *x = malloc(n * sizeof *x);
+    bool ok = (x || core_no_memory()) &&
+              record_get_array(record, "best.residual", &rows, &columns, &known);
+    bool have = ok && known;
+    if (ok)
+        free(known);
+    if (ok && !have)
+        ok = (galv_backmap(problem->model, shape, u, x, &residual) == GALV_OK ||
+              core_fail("back-mapping: %s", galv_last_error())) &&
+             record_put_array(record, "best.parameters", 1, n, x) &&
+             record_put_array(record, "best.residual", 1, 1, &residual);
+    free(x);
+    return ok;
+}
+
+bool optimise_run(struct problem *problem, const galv_shape *shape, struct record *record,
+                  const struct core_watch *watch)
+{
+    double *best = malloc(galv_model_modes(problem->model) * sizeof *best);
+    bool ok = (best || core_no_memory()) && search_run(problem, record, watch) &&
+              build_best(problem, record, best) && verify_run(problem, record, watch) &&
+              waves_run(problem, record, watch) &&
+              (!problem->best.hull || back_map(problem, shape, best, record)) &&
+              record_update_session(record);
+    free(best);
+    return ok;
+}

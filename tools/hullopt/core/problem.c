@@ -1,0 +1,225 @@
+#include "core/problem.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char LATENT_SPACE[] = "latent space";
+
+void design_free(struct design *design)
+{
+    nurbs_hull_free(design->hull);
+    igabem_hull_free(design->body);
+    *design = (struct design){0};
+}
+
+double problem_length(const struct problem *problem)
+{
+    return nurbs_hull_length(problem->source);
+}
+
+double design_nu_s(const struct design *design)
+{
+    igabem_hull_info info;
+    if (!design->body)
+        return NAN;
+    igabem_hull_get_info(design->body, &info);
+    return info.nu_s;
+}
+
+const struct design *problem_best(const struct problem *problem)
+{
+    return problem->best.hull ? &problem->best : &problem->parent;
+}
+
+static bool build_hull(struct problem *problem, const double *points, nurbs_hull **hull)
+{
+    size_t n = nurbs_grid_rows(problem->grid) * nurbs_grid_columns(problem->grid);
+    memcpy(nurbs_grid_edit(problem->moved), points, 3 * n * sizeof *points);
+    return nurbs_hull_rebuild(problem->source, problem->moved, hull) == NURBS_OK ||
+           core_fail("%s", nurbs_last_error());
+}
+
+static bool build(struct problem *problem, const double *points, struct design *design)
+{
+    *design = (struct design){0};
+    if (!build_hull(problem, points, &design->hull))
+        return false;
+    if (igabem_hull_from(design->hull, &design->body) == IGABEM_OK)
+        return true;
+    design_free(design);
+    return core_fail("hull: %s", igabem_last_error());
+}
+
+bool problem_build(struct problem *problem, const double *u, struct design *design)
+{
+    double *points = nurbs_grid_edit(problem->moved);
+    *design = (struct design){0};
+    if (!u)
+        return build(problem, nurbs_grid_points(problem->grid), design);
+    if (galv_displace(problem->model, u, points) != GALV_OK)
+        return core_fail("grid: %s", galv_last_error());
+    return build(problem, points, design);
+}
+
+bool problem_set_best(struct problem *problem, const double *u)
+{
+    design_free(&problem->best);
+    return problem_build(problem, u, &problem->best) ||
+           core_fail("the best design cannot be built again: %s", core_sentence());
+}
+
+/* The file's own grid unless the configuration asks for another. */
+static bool sample_grid(struct problem *problem)
+{
+    const struct config *config = problem->config;
+    const nurbs_patches *full = nurbs_hull_full(problem->source);
+    const size_t n[2] = {config->sections, config->girth};
+    const double *kept;
+    for (int axis = 0; axis < 2; axis++)
+        if (n[axis] == 0 && nurbs_patches_count(full) == 1 &&
+            nurbs_patches_parameters(full, 0, axis, &kept) == 0)
+            return core_fail("%s: grid.%s is missing, and %s keeps no design grid of its own",
+                             config->path, axis ? "girth" : "sections", config->hull);
+    return nurbs_hull_design_grid(problem->source, n[0], n[1], &problem->grid) == NURBS_OK ||
+           core_fail("%s: %s", config->hull, nurbs_last_error());
+}
+
+static bool prepare_parent(struct problem *problem)
+{
+    const nurbs_grid *grid = problem->grid;
+    if (nurbs_grid_create(nurbs_grid_rows(grid), nurbs_grid_columns(grid), nurbs_grid_points(grid),
+                          &problem->moved) != NURBS_OK)
+        return core_fail("%s", nurbs_last_error());
+    return problem_build(problem, NULL, &problem->parent) ||
+           core_fail("%s: the parent cannot be built (%s)", problem->config->hull, core_sentence());
+}
+
+static bool freeze(struct problem *problem)
+{
+    const struct config *config = problem->config;
+    problem->solver = config->solver;
+    problem->speeds = config->verify_froudes;
+    bool ok = igabem_options_freeze(problem->parent.body, &problem->solver) == IGABEM_OK;
+    for (size_t i = 0; i < problem->speeds && ok; i++) {
+        problem->speed[i] = config->solver;
+        problem->speed[i].froude = config->verify_froude[i];
+        ok = igabem_options_freeze(problem->parent.body, &problem->speed[i]) == IGABEM_OK;
+    }
+    if (!ok)
+        return core_fail("%s: %s", config->path, igabem_last_error());
+    if (!isnan(config->pressure) && !igabem_formulation_info(problem->solver.formulation)->pressure)
+        return core_fail("%s: constraints.pressure needs a resistance by pressure, which %s has "
+                         "not",
+                         config->path, igabem_formulation_name(problem->solver.formulation));
+    return true;
+}
+
+bool problem_read(const struct config *config, struct problem *problem)
+{
+    nurbs_hull_options options;
+    nurbs_hull_options_init(&options);
+    options.simplify = config->tolerance;
+    *problem = (struct problem){.config = config};
+    bool ok = nurbs_hull_read(config->hull, &options, &problem->source) == NURBS_OK ||
+              core_fail("%s", nurbs_last_error());
+    ok = ok && sample_grid(problem) && prepare_parent(problem) && freeze(problem);
+    if (!ok)
+        problem_free(problem);
+    return ok;
+}
+
+/* A hull whose length and tolerance the designs take, from the points of the grid alone. */
+static bool restore_source(struct problem *problem, double length)
+{
+    nurbs_surface *side = NULL;
+    nurbs_hull_options options;
+    nurbs_hull_options_init(&options);
+    options.simplify = problem->config->tolerance;
+    options.length = length;
+    bool ok = nurbs_skin(problem->grid, NULL, &side) == NURBS_OK &&
+              nurbs_hull_create_surfaces(1, (const nurbs_surface *const[]){side}, &options,
+                                         &problem->source) == NURBS_OK;
+    nurbs_surface_free(side);
+    return ok || core_fail("%s", nurbs_last_error());
+}
+
+bool problem_restore(const struct config *config, galv_model *model, const size_t grid[2],
+                     double length, struct problem *problem)
+{
+    *problem = (struct problem){.config = config};
+    bool ok = grid[0] * grid[1] == galv_model_points(model) ||
+              core_fail("the design grid is %zu x %zu, but the latent space moves %zu points",
+                        grid[0], grid[1], galv_model_points(model));
+    ok = ok && (nurbs_grid_create(grid[0], grid[1], galv_model_parent(model), &problem->grid) ==
+                    NURBS_OK ||
+                core_fail("%s", nurbs_last_error()));
+    ok = ok && restore_source(problem, length) && prepare_parent(problem);
+    if (!ok) {
+        galv_model_free(model);
+        problem_free(problem);
+        return false;
+    }
+    ok = problem_recall(problem, model, NULL);
+    if (!ok)
+        problem_free(problem);
+    return ok;
+}
+
+void problem_free(struct problem *problem)
+{
+    design_free(&problem->parent);
+    design_free(&problem->best);
+    galv_limits_free(problem->limits);
+    galv_model_free(problem->model);
+    nurbs_grid_free(problem->grid);
+    nurbs_grid_free(problem->moved);
+    nurbs_hull_free(problem->source);
+    *problem = (struct problem){0};
+}
+
+bool problem_recall(struct problem *problem, galv_model *model, const double *gradient)
+{
+    problem->model = model;
+    if (galv_limits_create(model, nurbs_grid_rows(problem->grid), nurbs_grid_columns(problem->grid),
+                           design_nu_s(&problem->parent), &problem->limits) != GALV_OK ||
+        (gradient && galv_limits_set_gradient(problem->limits, gradient) != GALV_OK))
+        return core_fail("%s: %s", problem->config->hull, galv_last_error());
+    return true;
+}
+
+static int show_fraction(void *user_data, double fraction)
+{
+    core_show(user_data, LATENT_SPACE, fraction, NULL);
+    return 0;
+}
+
+static double built_volume(void *user_data, const double *points)
+{
+    nurbs_hull *hull;
+    if (!build_hull(user_data, points, &hull))
+        return NAN;
+    double volume = nurbs_hull_hydrostatics(hull)->volume;
+    nurbs_hull_free(hull);
+    return volume;
+}
+
+bool problem_reduce(struct problem *problem, const galv_shape *shape,
+                    const struct core_watch *watch)
+{
+    const struct config *config = problem->config;
+    struct core_watch show = *watch;
+    galv_options options;
+    galv_model *model;
+    galv_options_init(&options);
+    options.variance = config->variance;
+    options.progress = show_fraction;
+    options.progress_user_data = &show;
+    size_t points = nurbs_grid_rows(problem->grid) * nurbs_grid_columns(problem->grid);
+    if (galv_build(shape, points, nurbs_grid_points(problem->grid),
+                   galv_uniform(config->samples, config->latent_seed), &options, &model) != GALV_OK)
+        return core_fail("%s: %s", config->shape, galv_last_error());
+    return problem_recall(problem, model, NULL) &&
+           (galv_limits_linearise(problem->limits, built_volume, problem) == GALV_OK ||
+            core_fail("%s: %s", config->shape, galv_last_error()));
+}

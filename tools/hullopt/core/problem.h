@@ -1,0 +1,60 @@
+/* What a run works on: the parent on its design grid, the latent space that moves the grid, and the
+ * solver's options as they suit the parent. The parent and the best design are built here, once. */
+#ifndef HULLOPT_PROBLEM_H
+#define HULLOPT_PROBLEM_H
+
+#include "config.h"
+#include "core/sentence.h"
+
+#include <galv/galv.h>
+#include <igabem/igabem.h>
+#include <nurbs/nurbs.h>
+
+/* A hull, and the same as the solver sees it. */
+struct design {
+    nurbs_hull *hull;
+    igabem_hull *body;
+};
+void design_free(struct design *design);
+
+struct problem {
+    const struct config *config;
+    nurbs_hull *source;   /* the parent as it was read: every design has its length and tolerance */
+    nurbs_grid *grid;     /* design grid on it */
+    nurbs_grid *moved;    /* of the design at hand */
+    struct design parent; /* built from its grid like every design */
+    struct design best;   /* empty before problem_set_best(), and when nothing is better */
+    igabem_options solver; /* frozen on the parent */
+    size_t speeds;         /* the same at the speeds of the verification */
+    igabem_options speed[CONFIG_FROUDE_MOST];
+    galv_model *model;   /* NULL before problem_reduce() or problem_recall() */
+    galv_limits *limits; /* of its latent points */
+};
+
+/* Reads the hull, samples the grid, builds the parent, freezes the options on it. */
+bool problem_read(const struct config *config, struct problem *problem);
+/* The hulls of a run without its file: from the latent space, the size of the grid and the length.
+ * Takes the model, whatever comes of it. There are no options to solve with. */
+bool problem_restore(const struct config *config, galv_model *model, const size_t grid[2],
+                     double length, struct problem *problem);
+void problem_free(struct problem *problem);
+
+/* Reduces the shape to its latent space. */
+bool problem_reduce(struct problem *problem, const galv_shape *shape,
+                    const struct core_watch *watch);
+/* Takes a latent space that was found earlier, and the gradient of the volume (NULL: none). */
+bool problem_recall(struct problem *problem, galv_model *model, const double *gradient);
+
+/* The design of a latent point (NULL: the parent). The sentence begins with the stage that failed,
+ * "skin: ". */
+bool problem_build(struct problem *problem, const double *u, struct design *design);
+bool problem_set_best(struct problem *problem, const double *u);
+
+/* The best design, or the parent. */
+const struct design *problem_best(const struct problem *problem);
+/* Reference length, m. */
+double problem_length(const struct problem *problem);
+/* The waterline's largest |nu_x| outside stem arcs; NAN without a body. */
+double design_nu_s(const struct design *design);
+
+#endif

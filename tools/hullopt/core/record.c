@@ -1,0 +1,442 @@
+#include "core/record.h"
+
+#include "cli.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* The one version of what the names below mean. 1: version 0.1.0, which kept tables of its own. */
+enum { FORMAT = 2 };
+
+static const char FORMAT_NAME[] = "hullopt.format", CONFIGURATION[] = "configuration",
+                  SESSIONS[] = "sessions", VERIFICATION[] = "verification", SOLVER[] = "solver";
+
+static bool done(bayesopt_status status)
+{
+    return status >= 0 || core_fail("%s", bayesopt_last_error());
+}
+
+bool record_put_text(struct record *record, const char *name, const char *text)
+{
+    return done(bayesopt_store_put_text(record->bo, name, text));
+}
+
+bool record_get_text(const struct record *record, const char *name, char **text)
+{
+    return done(bayesopt_store_get_text(record->bo, name, text));
+}
+
+bool record_put_array(struct record *record, const char *name, size_t rows, size_t columns,
+                      const double *values)
+{
+    return done(bayesopt_store_put_array(record->bo, name, rows, columns, values));
+}
+
+bool record_get_array(const struct record *record, const char *name, size_t *rows, size_t *columns,
+                      double **values)
+{
+    return done(bayesopt_store_get_array(record->bo, name, rows, columns, values));
+}
+
+void record_close(struct record *record)
+{
+    bayesopt_free(record->bo);
+    *record = (struct record){0};
+}
+
+void record_remove(const char *path)
+{
+    static const char *const suffixes[] = {"", "-journal", "-wal", "-shm"};
+    char name[4096];
+    for (size_t i = 0; i < sizeof suffixes / sizeof *suffixes; i++)
+        if (snprintf(name, sizeof name, "%s%s", path, suffixes[i]) < (int)sizeof name)
+            unlink(name);
+}
+
+/* A member that is kept as an attribute of the same name. */
+struct member {
+    const char *name;
+    enum { MEMBER_NUMBER, MEMBER_COUNT, MEMBER_INTEGER, MEMBER_TEXT } type;
+    size_t offset, size;
+};
+
+#define MEMBER(type, what, member)                                                                 \
+    {                                                                                              \
+#member, what, offsetof(struct type, member), sizeof((struct type *)0)->member             \
+    }
+#define FIGURE(member) MEMBER(evaluation, MEMBER_NUMBER, member)
+#define RESULT(member) MEMBER(verification, MEMBER_NUMBER, member)
+
+#define OPTION(member) MEMBER(igabem_options, MEMBER_NUMBER, member)
+#define WHOLE(member)  MEMBER(igabem_options, MEMBER_INTEGER, member)
+
+enum { MEMBERS_MOST = 16 };
+
+static const struct member EVALUATION[] = {
+    FIGURE(cw_pressure),     FIGURE(rw),
+    FIGURE(condition),       FIGURE(share_beyond_cutoff),
+    FIGURE(volume),          FIGURE(volume_ratio),
+    FIGURE(wetted_area),     FIGURE(bound),
+    FIGURE(propose_seconds), FIGURE(geometry_seconds),
+    FIGURE(solve_seconds),   MEMBER(evaluation, MEMBER_COUNT, dofs),
+};
+static const struct member SOLVER_OPTIONS[] = {
+    OPTION(froude),         OPTION(gravity),      OPTION(density),     WHOLE(refine),
+    WHOLE(elements_u),      WHOLE(elements_v),    WHOLE(degree),       OPTION(cutoff_angle),
+    OPTION(stem_limit),     OPTION(stern_length), OPTION(stern_blend), OPTION(tolerance),
+    OPTION(spectrum_limit),
+};
+static const struct member ROW[] = {
+    MEMBER(verification, MEMBER_TEXT, label),
+    MEMBER(verification, MEMBER_TEXT, formulation),
+    MEMBER(verification, MEMBER_TEXT, note),
+    MEMBER(verification, MEMBER_INTEGER, refine),
+    MEMBER(verification, MEMBER_COUNT, dofs_parent),
+    MEMBER(verification, MEMBER_COUNT, dofs_best),
+    RESULT(froude),
+    RESULT(stern_length),
+    RESULT(cw_parent),
+    RESULT(cw_best),
+    RESULT(cw_pressure_parent),
+    RESULT(cw_pressure_best),
+    RESULT(seconds),
+};
+
+#define LENGTH(array) (sizeof(array) / sizeof *(array))
+
+static size_t pack(size_t n, const struct member *members, const void *from,
+                   bayesopt_attribute *attributes)
+{
+    for (size_t i = 0; i < n; i++) {
+        const char *at = (const char *)from + members[i].offset;
+        bayesopt_attribute *a = &attributes[i];
+        *a = (bayesopt_attribute){.name = members[i].name};
+        switch (members[i].type) {
+        case MEMBER_NUMBER:
+            a->number = *(const double *)(const void *)at;
+            break;
+        case MEMBER_COUNT:
+            a->number = (double)*(const size_t *)(const void *)at;
+            break;
+        case MEMBER_INTEGER:
+            a->number = *(const int *)(const void *)at;
+            break;
+        case MEMBER_TEXT:
+            a->text = at;
+            break;
+        }
+    }
+    return n;
+}
+
+static void unpack(size_t n, const struct member *members, size_t n_attributes,
+                   const bayesopt_attribute *attributes, void *to)
+{
+    for (size_t i = 0; i < n; i++) {
+        void *at = (char *)to + members[i].offset;
+        const char *name = members[i].name;
+        double number = bayesopt_attribute_number(n_attributes, attributes, name);
+        switch (members[i].type) {
+        case MEMBER_NUMBER:
+            *(double *)at = number;
+            break;
+        case MEMBER_COUNT:
+            *(size_t *)at = number >= 0 ? (size_t)number : 0;
+            break;
+        case MEMBER_INTEGER:
+            *(int *)at = isnan(number) ? 0 : (int)number;
+            break;
+        case MEMBER_TEXT:
+            snprintf(at, members[i].size, "%s",
+                     bayesopt_attribute_text(n_attributes, attributes, name));
+            break;
+        }
+    }
+}
+
+size_t record_solver(const igabem_options *solver, bayesopt_attribute attributes[SOLVER_MOST])
+{
+    attributes[0] = (bayesopt_attribute){.name = "formulation",
+                                         .text = igabem_formulation_name(solver->formulation)};
+    attributes[1] =
+        (bayesopt_attribute){.name = "line_term", .text = solver->line_term ? "true" : "false"};
+    return 2 + pack(LENGTH(SOLVER_OPTIONS), SOLVER_OPTIONS, solver, attributes + 2);
+}
+
+static bool get_solver(const struct record *record, igabem_options *solver)
+{
+    bayesopt_table *table;
+    const bayesopt_attribute *row;
+    igabem_options_init(solver);
+    if (!done(bayesopt_store_get_table(record->bo, SOLVER, &table)))
+        return false;
+    size_t n = bayesopt_table_row(table, 0, &row);
+    const char *name = bayesopt_attribute_text(n, row, "formulation");
+    unpack(LENGTH(SOLVER_OPTIONS), SOLVER_OPTIONS, n, row, solver);
+    solver->line_term = strcmp(bayesopt_attribute_text(n, row, "line_term"), "true") == 0;
+    igabem_formulation f = 0;
+    while (igabem_formulation_info(f) && strcmp(igabem_formulation_name(f), name) != 0)
+        f++;
+    bool ok = igabem_formulation_info(f) || core_fail("formulation '%s' is not known", name);
+    solver->formulation = f;
+    bayesopt_table_free(table);
+    return ok;
+}
+
+/* The name of a field of the latent space in the store. */
+static void name_field(const galv_field *field, char name[64])
+{
+    snprintf(name, 64, "latent.%s", field->name);
+}
+
+static bool put_model(struct record *record, const galv_model *model)
+{
+    char name[64];
+    for (size_t i = 0; i < galv_model_field_count(); i++) {
+        const galv_field field = galv_model_field(model, i);
+        const double number = galv_field_number(&field);
+        name_field(&field, name);
+        if (field.values && !record_put_array(record, name, field.rows, field.columns,
+                                              field.dimensions ? field.values : &number))
+            return false;
+    }
+    return true;
+}
+
+static bool get_model(const struct record *record, galv_model **model)
+{
+    enum { MOST = 64 };
+    galv_field fields[MOST];
+    size_t n = galv_model_field_count() < MOST ? galv_model_field_count() : MOST;
+    bool ok = true;
+    for (size_t i = 0; i < n; i++) {
+        char name[64];
+        double *values = NULL;
+        fields[i] = galv_model_field(NULL, i);
+        name_field(&fields[i], name);
+        ok = ok && record_get_array(record, name, &fields[i].rows, &fields[i].columns, &values);
+        fields[i].type = GALV_TYPE_DOUBLE;
+        fields[i].values = values;
+    }
+    ok = ok && (galv_model_restore(n, fields, model) == GALV_OK ||
+                core_fail("the latent space is damaged: %s", galv_last_error()));
+    for (size_t i = 0; i < n; i++)
+        free((void *)fields[i].values);
+    return ok;
+}
+
+bool record_put_origin(struct record *record, const struct problem *problem)
+{
+    const double format = FORMAT, length = problem_length(problem);
+    const double grid[2] = {(double)nurbs_grid_rows(problem->grid),
+                            (double)nurbs_grid_columns(problem->grid)};
+    const double *gradient = galv_limits_gradient(problem->limits);
+    bayesopt_attribute solver[SOLVER_MOST];
+    size_t n = record_solver(&problem->solver, solver);
+    return record_put_text(record, "version", TOOL_VERSION) &&
+           done(bayesopt_store_put_row(record->bo, SOLVER, 0, n, solver)) &&
+           record_put_array(record, "length", 1, 1, &length) &&
+           record_put_array(record, "grid", 1, 2, grid) && put_model(record, problem->model) &&
+           (!gradient || record_put_array(record, "volume.gradient", 1,
+                                          galv_model_modes(problem->model), gradient)) &&
+           record_put_text(record, CONFIGURATION, problem->config->text) &&
+           record_put_array(record, FORMAT_NAME, 1, 1, &format);
+}
+
+/* Numbers of a fixed count. */
+static bool get_numbers(const struct record *record, const char *name, size_t n, double *numbers)
+{
+    size_t rows, columns;
+    double *values;
+    if (!record_get_array(record, name, &rows, &columns, &values))
+        return false;
+    bool ok = values && rows * columns == n;
+    if (ok)
+        memcpy(numbers, values, n * sizeof *numbers);
+    free(values);
+    return ok || core_fail("'%s' is missing", name);
+}
+
+static bool check_format(const struct record *record)
+{
+    double format;
+    size_t rows, columns;
+    double *values;
+    if (!record_get_array(record, FORMAT_NAME, &rows, &columns, &values))
+        return false;
+    format = values ? *values : 0;
+    free(values);
+    if (format == FORMAT)
+        return true;
+    if (format > FORMAT)
+        return core_fail("a newer hullopt wrote it: format %g, this one knows %d", format, FORMAT);
+    return core_fail("not the record of a hullopt run, or that of version 0.1.0, which this one "
+                     "does not read");
+}
+
+static bool read_origin(const struct record *record, struct origin *o)
+{
+    size_t rows, columns;
+    double grid[2];
+    if (!check_format(record) || !record_get_text(record, CONFIGURATION, &o->configuration) ||
+        !get_solver(record, &o->solver) || !get_numbers(record, "length", 1, &o->length) ||
+        !get_numbers(record, "grid", 2, grid) || !get_model(record, &o->model) ||
+        !record_get_array(record, "volume.gradient", &rows, &columns, &o->gradient))
+        return false;
+    for (int k = 0; k < 2; k++)
+        o->grid[k] = (size_t)grid[k];
+    if (o->gradient && rows * columns != galv_model_modes(o->model))
+        return core_fail("'volume.gradient' has %zu numbers, expected %zu", rows * columns,
+                         galv_model_modes(o->model));
+    return o->configuration || core_fail("it has no configuration");
+}
+
+bool record_read(const char *path, struct record *record, struct origin *origin)
+{
+    *record = (struct record){0};
+    *origin = (struct origin){0};
+    if (bayesopt_open_read(path, &record->bo) != BAYESOPT_OK)
+        return core_fail("%s", bayesopt_last_error());
+    if (read_origin(record, origin))
+        return true;
+    origin_free(origin);
+    record_close(record);
+    return core_fail("%s: %s", path, core_sentence());
+}
+
+void origin_free(struct origin *origin)
+{
+    free(origin->configuration);
+    free(origin->gradient);
+    galv_model_free(origin->model);
+    *origin = (struct origin){0};
+}
+
+bool record_begin_session(struct record *record, int threads, double start)
+{
+    double seconds;
+    record->threads = threads;
+    record->start = start;
+    return record_seconds(record, &record->session, &seconds) && record_update_session(record);
+}
+
+bool record_update_session(struct record *record)
+{
+    const bayesopt_attribute row[] = {
+        {.name = "threads", .number = record->threads},
+        {.name = "seconds", .number = cli_seconds() - record->start},
+    };
+    return done(bayesopt_store_put_row(record->bo, SESSIONS, record->session, 2, row));
+}
+
+bool record_seconds(const struct record *record, size_t *sessions, double *seconds)
+{
+    bayesopt_table *table;
+    const bayesopt_attribute *row;
+    if (!done(bayesopt_store_get_table(record->bo, SESSIONS, &table)))
+        return false;
+    *sessions = bayesopt_table_rows(table);
+    *seconds = 0;
+    for (size_t i = 0; i < *sessions; i++) {
+        size_t n = bayesopt_table_row(table, i, &row);
+        *seconds += bayesopt_attribute_number(n, row, "seconds");
+    }
+    bayesopt_table_free(table);
+    return true;
+}
+
+static const char *const SPEED[] = {"cw_speed_1", "cw_speed_2", "cw_speed_3", "cw_speed_4",
+                                    "cw_speed_5", "cw_speed_6", "cw_speed_7", "cw_speed_8"};
+_Static_assert(LENGTH(SPEED) == CONFIG_FROUDE_MOST, "a name for every speed");
+
+bool record_tell(struct record *record, const struct evaluation *e, const double *ratio)
+{
+    bayesopt_attribute attributes[MEMBERS_MOST + CONFIG_FROUDE_MOST];
+    size_t n = pack(LENGTH(EVALUATION), EVALUATION, e, attributes);
+    for (size_t i = 0; i < e->speeds; i++)
+        attributes[n++] = (bayesopt_attribute){.name = SPEED[i], .number = e->cw_speed[i]};
+    const bayesopt_result result = {.f = e->failed ? NAN : e->cw,
+                                    .constraints = ratio,
+                                    .note = e->failed ? e->reason : NULL,
+                                    .n_attributes = n,
+                                    .attributes = attributes};
+    return done(e->id ? bayesopt_tell_result(record->bo, e->id, &result)
+                      : bayesopt_tell_point_result(record->bo, e->u, &result, NULL));
+}
+
+static void read_evaluation(const bayesopt_point *point, struct evaluation *e)
+{
+    bool parent = point->phase == BAYESOPT_PHASE_EXTERNAL;
+    evaluation_start(parent ? 0 : point->id, parent ? "parent" : bayesopt_phase_name(point->phase),
+                     point->x, e);
+    e->failed = point->state == BAYESOPT_STATE_FAILED;
+    e->cw = point->f;
+    if (e->failed)
+        snprintf(e->reason, sizeof e->reason, "%s", point->note);
+    unpack(LENGTH(EVALUATION), EVALUATION, point->n_attributes, point->attributes, e);
+    for (size_t i = 0; i < CONFIG_FROUDE_MOST; i++) {
+        double cw = bayesopt_attribute_number(point->n_attributes, point->attributes, SPEED[i]);
+        if (!isnan(cw))
+            e->cw_speed[e->speeds++] = cw;
+    }
+}
+
+bool record_evaluations(const struct record *record, struct evaluation **list, size_t *n)
+{
+    size_t all = bayesopt_count(record->bo);
+    bayesopt_point point;
+    *n = 0;
+    *list = calloc(all + 1, sizeof **list);
+    if (!*list)
+        return core_no_memory();
+    for (size_t i = 0; i < all; i++) {
+        if (!done(bayesopt_get(record->bo, i, &point)))
+            return false;
+        if (point.state != BAYESOPT_STATE_PENDING)
+            read_evaluation(&point, &(*list)[(*n)++]);
+    }
+    return true;
+}
+
+bool record_put_verification(struct record *record, size_t position, const struct verification *row)
+{
+    bayesopt_attribute attributes[MEMBERS_MOST];
+    size_t n = pack(LENGTH(ROW), ROW, row, attributes);
+    attributes[n++] =
+        (bayesopt_attribute){.name = "group", .text = verification_group_name(row->group)};
+    return done(bayesopt_store_put_row(record->bo, VERIFICATION, position, n, attributes));
+}
+
+static bool read_row(size_t n, const bayesopt_attribute *attributes, struct verification *row)
+{
+    const char *group = bayesopt_attribute_text(n, attributes, "group");
+    unpack(LENGTH(ROW), ROW, n, attributes, row);
+    for (row->group = 0; row->group < GROUPS; row->group++)
+        if (strcmp(group, verification_group_name(row->group)) == 0)
+            return true;
+    return core_fail("a verification of '%s', which this version does not know", group);
+}
+
+bool record_verifications(const struct record *record, struct verification **list, size_t *n)
+{
+    bayesopt_table *table;
+    *list = NULL;
+    *n = 0;
+    if (!done(bayesopt_store_get_table(record->bo, VERIFICATION, &table)))
+        return false;
+    size_t rows = bayesopt_table_rows(table);
+    *list = calloc(rows + 1, sizeof **list);
+    bool ok = *list || core_no_memory();
+    while (ok && *n < rows) {
+        const bayesopt_attribute *attributes;
+        size_t count = bayesopt_table_row(table, *n, &attributes);
+        ok = read_row(count, attributes, &(*list)[*n]);
+        *n += ok;
+    }
+    bayesopt_table_free(table);
+    return ok;
+}

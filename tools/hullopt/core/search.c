@@ -1,0 +1,138 @@
+#include "core/search.h"
+
+#include "cli.h"
+#include "core/constraints.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+bool search_open(struct problem *problem, const char *path, struct record *record)
+{
+    const struct config *config = problem->config;
+    const galv_model *model = problem->model;
+    double bound[OUTCOME_MOST];
+    bayesopt_options options;
+    bayesopt_options_init(&options);
+    options.seed = config->search_seed;
+    options.initial_kind = config->design;
+    options.initial_n = config->initial;
+    options.max_evaluations = 1 + config->initial + config->iterations; /* 1: the parent */
+    options.strategy = config->strategy;
+    options.n_input_constraints = limits_count(config);
+    options.input_constraint = limits_evaluate;
+    options.input_user_data = problem;
+    options.n_constraints = outcome_bounds(config, bound);
+    options.constraint_upper = bound;
+    *record = (struct record){0};
+    if (bayesopt_create(galv_model_modes(model), galv_model_lower(model), galv_model_upper(model),
+                        &options, &record->bo) == BAYESOPT_OK &&
+        bayesopt_open_store(record->bo, path) == BAYESOPT_OK)
+        return true;
+    core_fail("%s: %s", path, bayesopt_last_error());
+    record_close(record);
+    return false;
+}
+
+struct state {
+    struct problem *problem;
+    struct record *record;
+    const struct core_watch *watch;
+    struct evaluation parent;
+    double best;
+    size_t done, failed;
+};
+
+static bool tell(struct state *s, const struct evaluation *e)
+{
+    double ratio[OUTCOME_MOST];
+    outcome_ratios(s->problem->config, e, &s->parent, ratio);
+    return record_tell(s->record, e, ratio);
+}
+
+/* The parent is u = 0: told to the search before anything is asked. */
+static bool begin(struct state *s)
+{
+    const struct config *config = s->problem->config;
+    struct evaluation *list;
+    size_t n;
+    if (!record_evaluations(s->record, &list, &n))
+        return false;
+    for (size_t i = 0; i < n; i++) {
+        if (list[i].id == 0) {
+            s->parent = list[i];
+            s->parent.u = NULL;
+            s->best = list[i].cw;
+        }
+        if (outcome_allowed(config, &list[i], &s->parent))
+            s->best = fmin(s->best, list[i].cw);
+        s->failed += list[i].failed;
+    }
+    s->done = n;
+    free(list);
+    if (n)
+        return true;
+    double *zero = calloc(galv_model_modes(s->problem->model), sizeof *zero);
+    if (!zero)
+        return core_no_memory();
+    evaluation_start(0, "parent", zero, &s->parent);
+    evaluate_parent(s->problem, &s->parent);
+    bool ok = s->parent.failed ? core_fail("%s: the parent cannot be evaluated (%s)", config->hull,
+                                           s->parent.reason)
+                               : tell(s, &s->parent);
+    s->best = s->parent.cw;
+    s->done = 1;
+    s->parent.u = NULL;
+    free(zero);
+    return ok;
+}
+
+static void show(const struct state *s)
+{
+    char detail[120];
+    size_t all = bayesopt_budget(s->record->bo);
+    snprintf(detail, sizeof detail, "%zu of %zu, %zu failed, best C_w %.4e (%+.1f %%)", s->done,
+             all, s->failed, s->best, 100 * (s->best / s->parent.cw - 1));
+    core_show(s->watch, "search", (double)s->done / (double)all, detail);
+}
+
+/* Figures and value are told at once: a session that dies leaves a point that is asked again. */
+static bool step(struct state *s, uint64_t id, const double *u, double propose_seconds)
+{
+    struct evaluation e;
+    evaluation_start(id, NULL, u, &e);
+    e.propose_seconds = propose_seconds;
+    evaluate(s->problem, &e);
+    if (!tell(s, &e) || !record_update_session(s->record))
+        return false;
+    s->done++;
+    s->failed += e.failed;
+    if (outcome_allowed(s->problem->config, &e, &s->parent))
+        s->best = fmin(s->best, e.cw);
+    return true;
+}
+
+static bool loop(struct state *s, double *u)
+{
+    for (;;) {
+        uint64_t id;
+        show(s);
+        double start = cli_seconds();
+        bayesopt_status status = bayesopt_ask(s->record->bo, 1, u, &id);
+        if (status > 0)
+            return record_put_text(s->record, "stop", bayesopt_status_string(status));
+        if (status < 0)
+            return core_fail("%s: %s", s->problem->config->path, bayesopt_last_error());
+        if (!step(s, id, u, cli_seconds() - start))
+            return false;
+    }
+}
+
+bool search_run(struct problem *problem, struct record *record, const struct core_watch *watch)
+{
+    struct state s = {.problem = problem, .record = record, .watch = watch};
+    double *u = malloc(galv_model_modes(problem->model) * sizeof *u);
+    bool ok = (u || core_no_memory()) && begin(&s) && loop(&s, u);
+    free(u);
+    return ok;
+}

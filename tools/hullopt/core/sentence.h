@@ -1,0 +1,26 @@
+/* How the core reports a failure: it prints nothing, returns core_fail("%s: ...", path) and leaves
+ * the sentence to its caller. */
+#ifndef HULLOPT_SENTENCE_H
+#define HULLOPT_SENTENCE_H
+
+#include <stdbool.h>
+
+enum { SENTENCE_SIZE = 512 };
+
+/* Keeps the sentence for this thread and returns false. */
+__attribute__((format(printf, 1, 2))) bool core_fail(const char *format, ...);
+bool core_no_memory(void);
+/* Of the last failure; borrowed until the next. */
+const char *core_sentence(void);
+
+/* How far a stage is, 0..1, to whoever watches. */
+typedef void (*core_progress)(void *user_data, const char *stage, double fraction,
+                              const char *detail);
+struct core_watch {
+    core_progress show; /* NULL: nobody */
+    void *user_data;
+};
+void core_show(const struct core_watch *watch, const char *stage, double fraction,
+               const char *detail);
+
+#endif

@@ -1,0 +1,142 @@
+#include "core/verify.h"
+
+#include "cli.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Where neumann-kelvin-stern changes kernels is a choice; two shorter sterns beside the objective's
+ * show how much the choice decides. Shares of the length. */
+static const double OTHER_STERNS[] = {0.18, 0.26};
+
+const char *verification_group_name(enum verification_group group)
+{
+    static const char *const names[GROUPS] = {"objective",  "formulation", "stern",
+                                              "resolution", "filter",      "speed"};
+    return (unsigned)group < GROUPS ? names[group] : "";
+}
+
+static void add(struct verification *rows, igabem_options *options, size_t *n,
+                enum verification_group group, const char *label, const igabem_options *setting)
+{
+    struct verification *row = &rows[*n];
+    *row = (struct verification){.group = group,
+                                 .froude = setting->froude,
+                                 .refine = setting->refine,
+                                 .stern_length = NAN,
+                                 .cw_parent = NAN,
+                                 .cw_best = NAN,
+                                 .cw_pressure_parent = NAN,
+                                 .cw_pressure_best = NAN};
+    snprintf(row->label, sizeof row->label, "%s", label);
+    snprintf(row->formulation, sizeof row->formulation, "%s",
+             igabem_formulation_name(setting->formulation));
+    if (igabem_formulation_info(setting->formulation)->stern_rows)
+        row->stern_length = setting->stern_length;
+    options[(*n)++] = *setting;
+}
+
+static void plan_models(const igabem_options *frozen, struct verification *rows,
+                        igabem_options *options, size_t *n)
+{
+    const igabem_formulation_row *formulation;
+    char label[80];
+    for (igabem_formulation f = IGABEM_FORMULATION_AUTO + 1;
+         (formulation = igabem_formulation_info(f)); f++) {
+        if (f == frozen->formulation)
+            continue;
+        igabem_options other = *frozen;
+        other.formulation = f;
+        add(rows, options, n, GROUP_FORMULATION, formulation->name, &other);
+    }
+    for (size_t i = 0; i < sizeof OTHER_STERNS / sizeof *OTHER_STERNS; i++) {
+        if (!igabem_formulation_info(frozen->formulation)->stern_rows)
+            break;
+        igabem_options other = *frozen;
+        other.stern_length = OTHER_STERNS[i];
+        snprintf(label, sizeof label, "stern length %.2f L", other.stern_length);
+        add(rows, options, n, GROUP_STERN, label, &other);
+    }
+}
+
+size_t verify_plan(const struct problem *problem, struct verification rows[VERIFY_MOST],
+                   igabem_options options[VERIFY_MOST])
+{
+    const struct config *config = problem->config;
+    const igabem_options *frozen = &problem->solver;
+    size_t n = 0;
+    char label[80];
+    add(rows, options, &n, GROUP_OBJECTIVE, "objective of the search", frozen);
+    plan_models(frozen, rows, options, &n);
+    if (config->verify_refine > 1) {
+        igabem_options finer = *frozen;
+        finer.refine *= config->verify_refine;
+        snprintf(label, sizeof label, "%d times the resolution", config->verify_refine);
+        add(rows, options, &n, GROUP_RESOLUTION, label, &finer);
+    }
+    if (isfinite(frozen->cutoff_angle)) {
+        igabem_options own = *frozen;
+        own.cutoff_angle = own.stem_limit = NAN;
+        add(rows, options, &n, GROUP_FILTER, "each hull's own filter", &own);
+    }
+    for (size_t i = 0; i < problem->speeds; i++) {
+        snprintf(label, sizeof label, "Fr %g", problem->speed[i].froude);
+        add(rows, options, &n, GROUP_SPEED, label, &problem->speed[i]);
+    }
+    return n;
+}
+
+static bool solve_one(const igabem_hull *hull, const igabem_options *options, const char *who,
+                      double *cw, double *cw_pressure, size_t *dofs, struct verification *row)
+{
+    igabem_solution *solution;
+    igabem_forces forces;
+    bool ok = igabem_solve(hull, options, &solution) == IGABEM_OK;
+    if (ok) {
+        ok = igabem_forces_compute(solution, &forces) == IGABEM_OK;
+        igabem_solution_free(solution);
+    }
+    if (!ok) {
+        snprintf(row->note, sizeof row->note, "%s: %.200s", who, igabem_last_error());
+        return false;
+    }
+    *cw = forces.cw;
+    *cw_pressure = forces.cw_pressure;
+    *dofs = forces.dofs;
+    return true;
+}
+
+static void solve_row(const igabem_hull *parent, const igabem_hull *best,
+                      const igabem_options *options, struct verification *row)
+{
+    double start = cli_seconds();
+    if (solve_one(parent, options, "parent", &row->cw_parent, &row->cw_pressure_parent,
+                  &row->dofs_parent, row) &&
+        best != parent)
+        solve_one(best, options, "optimum", &row->cw_best, &row->cw_pressure_best, &row->dofs_best,
+                  row);
+    if (best == parent) {
+        row->cw_best = row->cw_parent;
+        row->cw_pressure_best = row->cw_pressure_parent;
+        row->dofs_best = row->dofs_parent;
+    }
+    row->seconds = cli_seconds() - start;
+}
+
+bool verify_run(const struct problem *problem, struct record *record,
+                const struct core_watch *watch)
+{
+    struct verification rows[VERIFY_MOST], *known;
+    igabem_options options[VERIFY_MOST];
+    size_t done, n = verify_plan(problem, rows, options);
+    bool ok = record_verifications(record, &known, &done);
+    free(known);
+    for (size_t i = done; i < n && ok; i++) {
+        core_show(watch, "verification", (double)i / (double)n, rows[i].label);
+        solve_row(problem->parent.body, problem_best(problem)->body, &options[i], &rows[i]);
+        ok = record_put_verification(record, i, &rows[i]) && record_update_session(record);
+    }
+    return ok;
+}

@@ -1,0 +1,138 @@
+#include "report/outputs.h"
+
+#include "cli.h"
+#include "cli/folder.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The hull for a drawing office is kept ten times closer than the patch that is solved. */
+static const double HULL_TOLERANCE = 1e-5;
+
+static bool write_summary(const json_t *summary, const char *path)
+{
+    struct cli_file file;
+    if (!cli_file_open(&file, path))
+        return cli_refuse("%s: %s", path, strerror(errno));
+    if (json_dumpf(summary, file.stream, JSON_INDENT(2) | JSON_REAL_PRECISION(15)) != 0 ||
+        fputc('\n', file.stream) == EOF) {
+        cli_file_abandon(&file);
+        return cli_refuse("%s: cannot be written", path);
+    }
+    return cli_file_commit(&file) || cli_refuse("%s: %s", path, strerror(errno));
+}
+
+static bool write_report(const struct results *results, const char *path)
+{
+    struct cli_file file;
+    if (!cli_file_open(&file, path))
+        return cli_refuse("%s: %s", path, strerror(errno));
+    if (!report_write(file.stream, results)) {
+        cli_file_abandon(&file);
+        return cli_refuse("%s: cannot be written", path);
+    }
+    return cli_file_commit(&file) || cli_refuse("%s: %s", path, strerror(errno));
+}
+
+static bool write_patch(const struct results *r, const nurbs_surface *surface, const char *what,
+                        const char *path)
+{
+    char note[300];
+    nurbs_patches *patches = NULL;
+    snprintf(note, sizeof note, "%s; evaluation %llu of hullopt run, C_w %.6g at Fr %g", what,
+             (unsigned long long)r->best->id, r->best->cw, r->problem->config->solver.froude);
+    bool ok = nurbs_patches_create(&patches) == NURBS_OK &&
+              nurbs_patches_add(patches, surface) == NURBS_OK &&
+              nurbs_patches_set_note(patches, note) == NURBS_OK &&
+              nurbs_patches_set_length(patches, problem_length(r->problem)) == NURBS_OK &&
+              nurbs_patches_write(patches, path) == NURBS_OK;
+    if (!ok)
+        cli_fail("%s", nurbs_last_error());
+    nurbs_patches_free(patches);
+    return ok;
+}
+
+static bool write_hulls(const struct results *r, const char *json, const char *iges,
+                        const char *wetted)
+{
+    nurbs_surface *hull = NULL;
+    if (nurbs_surface_simplify(nurbs_patches_get(nurbs_hull_full(results_hull(r, 1)), 0),
+                               HULL_TOLERANCE * problem_length(r->problem),
+                               NURBS_SIMPLIFY_KEEP_EDGES | NURBS_SIMPLIFY_THRIFTY, &hull,
+                               NULL) != NURBS_OK)
+        return cli_refuse("best.json: %s", nurbs_last_error());
+    bool ok = write_patch(r, hull, "optimised hull up to the deck", json) &&
+              write_patch(r, hull, "optimised hull up to the deck", iges) &&
+              write_patch(r, nurbs_patches_get(nurbs_hull_light(results_hull(r, 1)), 0),
+                          "wetted part of the optimised hull", wetted);
+    nurbs_surface_free(hull);
+    return ok;
+}
+
+static void print_duration(const char *label, double seconds)
+{
+    if (seconds < 120)
+        printf("%-22s%.1f s\n", label, seconds);
+    else
+        printf("%-22s%d min %02d s\n", label, (int)(seconds / 60), (int)fmod(seconds, 60));
+}
+
+static bool print_figures(const struct results *r, const char *folder)
+{
+    struct results_times times = results_times(r);
+    double allowed = r->problem->config->displacement;
+    printf("%-22s%zu of %zu parameters, %.2f %% of the variance\n", "latent variables",
+           galv_model_modes(r->problem->model), galv_model_parameters(r->problem->model),
+           100 * galv_model_retained(r->problem->model));
+    printf("%-22s%.4e\n%-22s%.4e\n%-22s%.1f %%\n", "C_w before", r->baseline->cw, "C_w after",
+           r->best->cw, "reduction", 100 * (1 - r->best->cw / r->baseline->cw));
+    printf("%-22s%+.2f %%", "displacement", 100 * (r->best->volume_ratio - 1));
+    if (isnan(allowed))
+        puts(", not constrained");
+    else
+        printf(", allowed %g %%\n", 100 * allowed);
+    printf("%-22s%zu evaluated, %zu failed\n", "designs", r->n - 1, r->failed);
+    printf("%-22s%.2f s: geometry %.2f, solve %.2f; proposing %.2f\n", "one evaluation",
+           times.evaluation, times.geometry, times.solve, times.propose);
+    print_duration("total time", r->seconds);
+    printf("%-22s%s\n", "verification",
+           r->n_rows ? r->verdict.statement : "not done yet: the run is not finished");
+    if (folder)
+        printf("%-22s%s/report.html\n", "report", folder);
+    return fflush(stdout) != EOF || cli_refuse("standard output: %s", strerror(errno));
+}
+
+static bool print_summary(const json_t *summary)
+{
+    bool ok = json_dumpf(summary, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(15)) == 0 &&
+              putchar('\n') != EOF && fflush(stdout) != EOF;
+    return ok || cli_refuse("standard output: %s", strerror(errno));
+}
+
+static bool write_files(const struct results *r, const char *folder, const json_t *summary)
+{
+    static const char *const names[] = {"summary.json", "best.json", "best.igs", "best_wetted.json",
+                                        "report.html"};
+    char *path[5] = {0};
+    bool ok = true;
+    for (size_t i = 0; i < 5; i++)
+        ok = (path[i] = folder_join(folder, names[i])) != NULL && ok;
+    ok = (ok || cli_refuse("out of memory")) && write_hulls(r, path[1], path[2], path[3]) &&
+         write_report(r, path[4]) && write_summary(summary, path[0]);
+    for (size_t i = 0; i < 5; i++)
+        free(path[i]);
+    return ok;
+}
+
+bool outputs_write(const struct results *r, const char *folder, bool json)
+{
+    json_t *summary = summary_make(r);
+    bool ok = (summary || cli_refuse("out of memory")) &&
+              (!folder || write_files(r, folder, summary)) &&
+              (json ? print_summary(summary) : print_figures(r, folder));
+    json_decref(summary);
+    return ok;
+}

@@ -1,0 +1,16 @@
+/* The parts of the page that are text and tables. */
+#ifndef HULLOPT_REPORT_PARTS_H
+#define HULLOPT_REPORT_PARTS_H
+
+#include "report/results.h"
+
+#include <stdio.h>
+
+/* Doctype, style, title, the key figures and the verdict. */
+void report_head(FILE *out, const struct results *results);
+void report_particulars(FILE *out, const struct results *results);
+void report_failures(FILE *out, const struct results *results);
+void report_verification(FILE *out, const struct results *results);
+void report_settings(FILE *out, const struct results *results);
+
+#endif

@@ -1,0 +1,93 @@
+#include "report/results.h"
+
+#include "core/constraints.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+const nurbs_hull *results_hull(const struct results *r, int which)
+{
+    return (which ? problem_best(r->problem) : &r->problem->parent)->hull;
+}
+
+static bool read_evaluations(const struct record *record, struct results *r)
+{
+    if (!record_evaluations(record, &r->evaluations, &r->n))
+        return false;
+    if (r->n == 0 || r->evaluations[0].id != 0)
+        return core_fail("nothing has been evaluated yet");
+    r->baseline = r->evaluations;
+    r->best = outcome_best(r->problem->config, r->n, r->evaluations);
+    for (size_t i = 0; i < r->n; i++)
+        r->failed += r->evaluations[i].failed;
+    return r->best || core_fail("the parent is recorded as a failure: %s", r->baseline->reason);
+}
+
+static bool measure_best(struct problem *problem, struct results *r)
+{
+    if (r->best != r->baseline && !problem->best.hull && !problem_set_best(problem, r->best->u))
+        return false;
+    r->nu_s[0] = design_nu_s(&problem->parent);
+    r->nu_s[1] = design_nu_s(problem_best(problem));
+    return galv_limits_breadth(problem->limits, r->best->u, NULL, &r->breadth) == GALV_OK ||
+           core_fail("%s", galv_last_error());
+}
+
+static bool read_parameters(const struct record *record, struct results *r)
+{
+    size_t one, n;
+    double *residual;
+    r->residual = NAN;
+    if (!record_get_array(record, "best.parameters", &one, &r->n_parameters, &r->parameters) ||
+        !record_get_array(record, "best.residual", &one, &n, &residual))
+        return false;
+    if (residual && one * n == 1)
+        r->residual = *residual;
+    free(residual);
+    return true;
+}
+
+bool results_read(struct problem *problem, const struct record *record, struct results *r)
+{
+    *r = (struct results){.problem = problem};
+    bool ok = read_evaluations(record, r) && measure_best(problem, r) &&
+              record_get_text(record, "stop", &r->stop) &&
+              record_verifications(record, &r->rows, &r->n_rows) &&
+              waves_read(record, false, &r->waves[0]) && waves_read(record, true, &r->waves[1]) &&
+              read_parameters(record, r) && record_seconds(record, &r->sessions, &r->seconds);
+    if (!ok) {
+        results_free(r);
+        return false;
+    }
+    verdict_reach(r->rows, r->n_rows, &r->verdict);
+    r->complete = r->stop && r->n_rows > 0 && r->waves[0].elevation &&
+                  (r->waves[1].elevation || r->best == r->baseline);
+    return true;
+}
+
+void results_free(struct results *r)
+{
+    for (int k = 0; k < 2; k++)
+        free(r->waves[k].elevation);
+    free(r->evaluations);
+    free(r->rows);
+    free(r->parameters);
+    free(r->stop);
+    *r = (struct results){0};
+}
+
+struct results_times results_times(const struct results *r)
+{
+    struct results_times t = {0, 0, 0, 0};
+    for (size_t i = 0; i < r->n; i++) {
+        t.geometry += r->evaluations[i].geometry_seconds;
+        t.solve += r->evaluations[i].solve_seconds;
+        t.propose += r->evaluations[i].propose_seconds;
+    }
+    double n = r->n ? (double)r->n : 1;
+    t.geometry /= n;
+    t.solve /= n;
+    t.propose /= n;
+    t.evaluation = t.geometry + t.solve;
+    return t;
+}

@@ -1,0 +1,265 @@
+#include "cli.h"
+#include "core/constraints.h"
+#include "report/outputs.h"
+#include "report/particulars.h"
+
+#include <math.h>
+#include <string.h>
+
+/* JSON has no NaN: a figure that is not there is null. */
+static void put(json_t *object, const char *key, double value)
+{
+    json_object_set_new(object, key, isfinite(value) ? json_real(value) : json_null());
+}
+
+static void put_count(json_t *object, const char *key, size_t value)
+{
+    json_object_set_new(object, key, json_integer((json_int_t)value));
+}
+
+static void put_flag(json_t *object, const char *key, bool value)
+{
+    json_object_set_new(object, key, json_boolean(value));
+}
+
+static json_t *array(size_t n, const double *values)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < n; i++)
+        json_array_append_new(list, isfinite(values[i]) ? json_real(values[i]) : json_null());
+    return list;
+}
+
+static json_t *evaluation(const struct results *r, const struct evaluation *e)
+{
+    json_t *o = json_object();
+    put_count(o, "id", (size_t)e->id);
+    json_object_set_new(o, "phase", json_string(e->phase));
+    put(o, "cw", e->cw);
+    put(o, "cw_pressure", e->cw_pressure);
+    put(o, "rw", e->rw);
+    if (e->speeds)
+        json_object_set_new(o, "cw_speeds", array(e->speeds, e->cw_speed));
+    put(o, "share_beyond_cutoff", e->share_beyond_cutoff);
+    put(o, "condition", e->condition);
+    put(o, "volume", e->volume);
+    put(o, "wetted_area", e->wetted_area);
+    put_count(o, "dofs", e->dofs);
+    put(o, "simplification_bound", e->bound);
+    json_object_set_new(o, "latent", array(galv_model_modes(r->problem->model), e->u));
+    return o;
+}
+
+/* Of C_w to the parent's over the speeds that were solved with every design; NAN without any. */
+static double largest_speed_ratio(const struct results *r)
+{
+    double largest = NAN;
+    for (size_t i = 0; i < r->best->speeds; i++)
+        largest = fmax(largest, r->best->cw_speed[i] / r->baseline->cw_speed[i]);
+    return largest;
+}
+
+static json_t *constraints(const struct results *r)
+{
+    json_t *o = json_object(), *displacement = json_object();
+    double allowed = r->problem->config->displacement;
+    double change = r->best->volume_ratio - 1;
+    put(displacement, "allowed", allowed);
+    put(displacement, "before", r->baseline->volume);
+    put(displacement, "after", r->best->volume);
+    put(displacement, "change", change);
+    put_flag(displacement, "satisfied", isnan(allowed) || fabs(change) <= allowed);
+    json_object_set_new(o, "displacement", displacement);
+    json_t *breadth = json_object();
+    double least = r->problem->config->breadth;
+    put(breadth, "allowed", least);
+    put(breadth, "before", 1);
+    put(breadth, "after", r->breadth);
+    put_flag(breadth, "satisfied", isnan(least) || r->breadth >= least);
+    json_object_set_new(o, "breadth", breadth);
+    json_t *entrance = json_object();
+    double most = r->problem->config->entrance;
+    put(entrance, "allowed", most);
+    put(entrance, "before", r->nu_s[0]);
+    put(entrance, "after", r->nu_s[1]);
+    put_flag(entrance, "satisfied",
+             isnan(most) || r->nu_s[1] <= ENTRANCE_SLACK * most * r->nu_s[0]);
+    json_object_set_new(o, "entrance", entrance);
+    json_t *pressure = json_object();
+    double ratio = r->best->cw_pressure / r->baseline->cw_pressure;
+    most = r->problem->config->pressure;
+    put(pressure, "allowed", most);
+    put(pressure, "before", r->baseline->cw_pressure);
+    put(pressure, "after", r->best->cw_pressure);
+    put_flag(pressure, "satisfied", isnan(most) || ratio <= most);
+    json_object_set_new(o, "pressure", pressure);
+    json_t *speeds = json_object();
+    most = r->problem->config->speeds;
+    put(speeds, "allowed", most);
+    ratio = largest_speed_ratio(r);
+    put(speeds, "largest_ratio", ratio);
+    put_flag(speeds, "satisfied", isnan(most) || ratio <= most);
+    json_object_set_new(o, "speeds", speeds);
+    return o;
+}
+
+static json_t *particulars(const struct results *r)
+{
+    struct particular list[PARTICULARS_MOST];
+    json_t *o = json_object();
+    size_t n = particulars_list(r, list);
+    for (size_t i = 0; i < n; i++) {
+        json_t *row = json_object();
+        json_object_set_new(row, "unit", json_string(list[i].unit));
+        put(row, "before", list[i].value[0]);
+        put(row, "after", list[i].value[1]);
+        json_object_set_new(o, list[i].key, row);
+    }
+    return o;
+}
+
+static json_t *verification(const struct results *r)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < r->n_rows; i++) {
+        const struct verification *v = &r->rows[i];
+        json_t *o = json_object();
+        json_object_set_new(o, "group", json_string(verification_group_name(v->group)));
+        json_object_set_new(o, "label", json_string(v->label));
+        json_object_set_new(o, "formulation", json_string(v->formulation));
+        put(o, "fr", v->froude);
+        put_count(o, "refine", (size_t)v->refine);
+        put(o, "stern_length", v->stern_length);
+        put(o, "cw_before", v->cw_parent);
+        put(o, "cw_after", v->cw_best);
+        put(o, "reduction_percent", 100 * (1 - v->cw_best / v->cw_parent));
+        put(o, "cw_pressure_before", v->cw_pressure_parent);
+        put(o, "cw_pressure_after", v->cw_pressure_best);
+        put_count(o, "dofs_before", v->dofs_parent);
+        put_count(o, "dofs_after", v->dofs_best);
+        put(o, "seconds", v->seconds);
+        json_object_set_new(o, "note", json_string(v->note));
+        json_array_append_new(list, o);
+    }
+    return list;
+}
+
+static json_t *robust(const struct verdict *v)
+{
+    json_t *o = json_object();
+    put_flag(o, "formulations", v->formulations);
+    json_object_set_new(o, "resolution",
+                        v->has_resolution ? json_boolean(v->resolution) : json_null());
+    json_object_set_new(o, "filter", v->has_filter ? json_boolean(v->filter) : json_null());
+    json_object_set_new(o, "speeds", v->has_speeds ? json_boolean(v->speeds) : json_null());
+    put_flag(o, "only_objective", v->only_objective);
+    put(o, "reduction_percent_pressure", 100 * v->pressure);
+    put_count(o, "other_models", v->models);
+    put_count(o, "confirm", v->confirm);
+    put_count(o, "partly", v->partly);
+    put_count(o, "deny", v->deny);
+    json_object_set_new(o, "statement", json_string(v->statement));
+    return o;
+}
+
+/* "key = value" lines as an object of texts and numbers. */
+static json_t *settings(const char *text)
+{
+    json_t *o = json_object();
+    char key[64], value[400];
+    for (const char *line = text; *line;) {
+        size_t length = strcspn(line, "\n"), name = strcspn(line, " \n");
+        double number;
+        if (name < sizeof key && strncmp(line + name, " = ", 3) == 0) {
+            snprintf(key, sizeof key, "%.*s", (int)name, line);
+            snprintf(value, sizeof value, "%.*s", (int)(length - name - 3), line + name + 3);
+            json_object_set_new(
+                o, key, cli_parse_double(value, &number) ? json_real(number) : json_string(value));
+        } else if (name < sizeof key) {
+            snprintf(key, sizeof key, "%.*s", (int)name, line);
+            json_object_set_new(o, key, json_string(""));
+        }
+        line += length + (line[length] == '\n');
+    }
+    return o;
+}
+
+static json_t *solver(const igabem_options *options)
+{
+    bayesopt_attribute list[SOLVER_MOST];
+    size_t n = record_solver(options, list);
+    json_t *o = json_object();
+    for (size_t i = 0; i < n; i++) {
+        if (list[i].text)
+            json_object_set_new(o, list[i].name, json_string(list[i].text));
+        else
+            put(o, list[i].name, list[i].number);
+    }
+    return o;
+}
+
+static json_t *failures(const struct results *r)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < r->n; i++) {
+        const struct evaluation *e = &r->evaluations[i];
+        if (!e->failed)
+            continue;
+        json_t *o = json_object();
+        put_count(o, "id", (size_t)e->id);
+        size_t stage = strcspn(e->reason, ":");
+        json_object_set_new(o, "stage", json_stringn(e->reason, stage));
+        json_object_set_new(o, "reason",
+                            json_string(e->reason + stage + strspn(e->reason + stage, ": ")));
+        json_array_append_new(list, o);
+    }
+    return list;
+}
+
+static void put_latent(json_t *o, const galv_model *model)
+{
+    put_count(o, "modes", galv_model_modes(model));
+    put_count(o, "parameters", galv_model_parameters(model));
+    put_count(o, "latent_samples", galv_model_samples(model));
+    put(o, "retained_variance", galv_model_retained(model));
+    put(o, "trace", galv_model_trace(model));
+    json_object_set_new(o, "eigenvalues",
+                        array(galv_model_spectrum(model), galv_model_eigenvalues(model)));
+}
+
+json_t *summary_make(const struct results *r)
+{
+    struct results_times times = results_times(r);
+    json_t *o = json_object();
+    json_object_set_new(o, "format", json_string("hullopt-summary"));
+    put_count(o, "version", 1);
+    json_object_set_new(o, "tool", json_string("hullopt " TOOL_VERSION));
+    put_flag(o, "complete", r->complete);
+    json_object_set_new(o, "stop", r->stop ? json_string(r->stop) : json_null());
+    json_t *best = evaluation(r, r->best);
+    if (r->parameters) {
+        json_object_set_new(best, "parameters", array(r->n_parameters, r->parameters));
+        put(best, "parameters_residual", r->residual);
+    }
+    json_object_set_new(o, "baseline", evaluation(r, r->baseline));
+    json_object_set_new(o, "best", best);
+    put(o, "reduction_percent", 100 * (1 - r->best->cw / r->baseline->cw));
+    put_count(o, "evaluations", r->n - 1); /* without the parent */
+    put_count(o, "initial_samples", r->problem->config->initial);
+    put_count(o, "failed_designs", r->failed);
+    put_latent(o, r->problem->model);
+    put(o, "seconds", r->seconds);
+    put(o, "seconds_per_evaluation", times.evaluation);
+    put(o, "seconds_geometry", times.geometry);
+    put(o, "seconds_solve", times.solve);
+    put(o, "seconds_proposal", times.propose);
+    put_count(o, "sessions", r->sessions);
+    json_object_set_new(o, "constraints", constraints(r));
+    json_object_set_new(o, "particulars", particulars(r));
+    json_object_set_new(o, "verification", verification(r));
+    json_object_set_new(o, "robust", robust(&r->verdict));
+    json_object_set_new(o, "failures", failures(r));
+    json_object_set_new(o, "settings", settings(r->problem->config->text));
+    json_object_set_new(o, "solver", solver(&r->problem->solver));
+    return o;
+}

@@ -1,0 +1,269 @@
+#include "core/constraints.h"
+#include "plot/plot.h"
+#include "report/particulars.h"
+#include "report/parts.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void cell(FILE *out, const char *format, double value)
+{
+    fputs("<td class=\"n\">", out);
+    if (isfinite(value))
+        fprintf(out, format, value);
+    else
+        fputs("–", out);
+    fputs("</td>", out);
+}
+
+/* The constraints are figures before and after like the others, with their limits beside them. */
+static void displacement_row(FILE *out, const struct results *r)
+{
+    double allowed = r->problem->config->displacement;
+    double change = r->best->volume_ratio - 1;
+    fputs("<tr class=\"total\"><td>Constraint: displacement</td><td>m³</td>", out);
+    cell(out, "%.5f", r->baseline->volume);
+    cell(out, "%.5f", r->best->volume);
+    cell(out, "%+.2f %%", 100 * change);
+    if (isnan(allowed))
+        fputs("<td>none</td></tr>\n", out);
+    else
+        fprintf(out, "<td>±%g %%, %s</td></tr>\n", 100 * allowed,
+                fabs(change) <= allowed ? "kept" : "violated");
+}
+
+static void breadth_row(FILE *out, const struct results *r)
+{
+    double least = r->problem->config->breadth;
+    fputs("<tr class=\"total\"><td>Constraint: least share of a half breadth kept</td><td></td>"
+          "<td class=\"n\">1</td>",
+          out);
+    cell(out, "%.3f", r->breadth);
+    fputs("<td></td>", out);
+    if (isnan(least))
+        fputs("<td>not across the centre plane</td></tr>\n", out);
+    else
+        fprintf(out, "<td>≥ %g, %s</td></tr>\n", least, r->breadth >= least ? "kept" : "violated");
+}
+
+static void entrance_row(FILE *out, const struct results *r)
+{
+    double most = r->problem->config->entrance;
+    double ratio = r->nu_s[1] / r->nu_s[0];
+    fputs("<tr class=\"total\"><td>Constraint: steepest waterline, |ν<sub>x</sub>|</td><td></td>",
+          out);
+    cell(out, "%.3f", r->nu_s[0]);
+    cell(out, "%.3f", r->nu_s[1]);
+    cell(out, "%+.1f %%", 100 * (ratio - 1));
+    if (isnan(most))
+        fputs("<td>none</td></tr>\n", out);
+    else
+        fprintf(out, "<td>≤ %+g %%, %s</td></tr>\n", 100 * (most - 1),
+                ratio <= ENTRANCE_SLACK * most ? "kept" : "violated");
+}
+
+/* most: largest allowed ratio, NAN: any. */
+static void resistance_row(FILE *out, const char *label, double before, double after, double most)
+{
+    fprintf(out, "<tr class=\"total\"><td>%s</td><td>10⁻³</td>", label);
+    cell(out, "%.4f", 1e3 * before);
+    cell(out, "%.4f", 1e3 * after);
+    cell(out, "%+.1f %%", 100 * (after / before - 1));
+    if (isnan(most))
+        fputs("<td></td></tr>\n", out);
+    else
+        fprintf(out, "<td>≤ %+g %%, %s</td></tr>\n", 100 * (most - 1),
+                after <= most * before ? "kept" : "violated");
+}
+
+/* Only the speeds that were solved with every design; the others are in the verification. */
+static void speed_rows(FILE *out, const struct results *r)
+{
+    char label[80];
+    size_t row = 0;
+    for (size_t i = 0; i < r->best->speeds; i++) {
+        while (row < r->n_rows && r->rows[row].group != GROUP_SPEED)
+            row++;
+        if (row < r->n_rows)
+            snprintf(label, sizeof label, "The same, Kochin function, Fr %g",
+                     r->rows[row++].froude);
+        else
+            snprintf(label, sizeof label, "The same, Kochin function, speed %zu", i + 1);
+        resistance_row(out, label, r->baseline->cw_speed[i], r->best->cw_speed[i],
+                       r->problem->config->speeds);
+    }
+}
+
+void report_particulars(FILE *out, const struct results *r)
+{
+    struct particular list[PARTICULARS_MOST];
+    size_t n = particulars_list(r, list);
+    fputs("<table><thead><tr><th>Particulars and constraints</th><th>unit</th>"
+          "<th class=\"n\">original</th><th class=\"n\">optimum</th><th class=\"n\">change</th>"
+          "<th>limit</th></tr></thead><tbody>\n",
+          out);
+    resistance_row(out, "Wave resistance coefficient, Kochin function", r->baseline->cw,
+                   r->best->cw, NAN);
+    resistance_row(out, "Wave resistance coefficient, pressure", r->baseline->cw_pressure,
+                   r->best->cw_pressure, r->problem->config->pressure);
+    speed_rows(out, r);
+    displacement_row(out, r);
+    breadth_row(out, r);
+    entrance_row(out, r);
+    for (size_t i = 0; i < n; i++) {
+        fprintf(out, "<tr><td>%s</td><td>%s</td>", list[i].label, list[i].unit);
+        for (int k = 0; k < 2; k++)
+            fprintf(out, "<td class=\"n\">%.*f</td>", list[i].decimals, list[i].value[k]);
+        cell(out, "%+.2f %%", 100 * (list[i].value[1] / list[i].value[0] - 1));
+        fputs("<td></td></tr>\n", out);
+    }
+    fputs("</tbody></table>\n", out);
+}
+
+void report_failures(FILE *out, const struct results *r)
+{
+    enum { SHOWN = 20 };
+    size_t shown = 0;
+    if (r->failed == 0)
+        return;
+    fprintf(out,
+            "<details><summary>%zu designs could not be evaluated</summary><table><thead><tr>"
+            "<th>design</th><th>stage</th><th>reason</th></tr></thead><tbody>\n",
+            r->failed);
+    for (size_t i = 0; i < r->n && shown < SHOWN; i++) {
+        const struct evaluation *e = &r->evaluations[i];
+        if (!e->failed)
+            continue;
+        int stage = (int)strcspn(e->reason, ":");
+        fprintf(out, "<tr><td>%llu</td><td>%.*s</td><td>", (unsigned long long)e->id, stage,
+                e->reason);
+        plot_escape(out, e->reason + stage + strspn(e->reason + stage, ": "));
+        fputs("</td></tr>\n", out);
+        shown++;
+    }
+    fputs("</tbody></table>", out);
+    if (shown < r->failed)
+        fprintf(out, "<p class=\"note\">The first %zu; all are in run.db.</p>", shown);
+    fputs("</details>\n", out);
+}
+
+static void judge_cell(FILE *out, const struct verification *v, const struct verdict *verdict)
+{
+    double gain = 1 - v->cw_best / v->cw_parent;
+    const char *tone = "some", *text = "less";
+    if (!isfinite(gain)) {
+        tone = "some";
+        text = "no result";
+    } else if (v->group == GROUP_OBJECTIVE) {
+        fputs("<td></td>", out);
+        return;
+    } else if (gain >= 0.5 * verdict->claimed && gain > 0) {
+        tone = "yes";
+        text = "confirms";
+    } else if (gain <= 0.01) {
+        tone = "no";
+        text = gain < -0.01 ? "rises" : "no gain";
+    }
+    fprintf(out, "<td><span class=\"tag %s\">%s</span></td>", tone, text);
+}
+
+void report_verification(FILE *out, const struct results *r)
+{
+    if (r->n_rows == 0)
+        return;
+    fputs("<section><h2>Verification</h2><p class=\"note\">The original and the optimum under the "
+          "same settings. A gain that only the model of the search sees belongs to that model, not "
+          "to the hull.</p><table><thead><tr><th>setting</th><th>formulation</th>"
+          "<th class=\"n\">Fr</th><th class=\"n\">unknowns</th><th class=\"n\">10³ Cw original</th>"
+          "<th class=\"n\">10³ Cw optimum</th><th class=\"n\">change</th>"
+          "<th class=\"n\">by pressure</th><th></th></tr></thead><tbody>\n",
+          out);
+    for (size_t i = 0; i < r->n_rows; i++) {
+        const struct verification *v = &r->rows[i];
+        fprintf(out, "<tr%s><td>%s</td><td>%s</td>", i == 0 ? " class=\"total\"" : "", v->label,
+                v->formulation);
+        cell(out, "%g", v->froude);
+        fprintf(out, "<td class=\"n\">%zu, %zu</td>", v->dofs_parent, v->dofs_best);
+        cell(out, "%.4f", 1e3 * v->cw_parent);
+        cell(out, "%.4f", 1e3 * v->cw_best);
+        cell(out, "%+.1f %%", 100 * (v->cw_best / v->cw_parent - 1));
+        cell(out, "%+.1f %%", 100 * (v->cw_pressure_best / v->cw_pressure_parent - 1));
+        judge_cell(out, v, &r->verdict);
+        fputs("</tr>\n", out);
+        if (*v->note) {
+            fputs("<tr><td colspan=\"9\" class=\"note\">", out);
+            plot_escape(out, v->note);
+            fputs("</td></tr>\n", out);
+        }
+    }
+    fputs("</tbody></table></section>\n", out);
+}
+
+static void setting_rows(FILE *out, const char *text)
+{
+    for (const char *line = text; line && *line;) {
+        int length = (int)strcspn(line, "\n");
+        const char *equals = strstr(line, " =");
+        if (equals && equals < line + length) {
+            char value[500];
+            snprintf(value, sizeof value, "%.*s", (int)(line + length - equals - 2), equals + 2);
+            fprintf(out, "<tr><td><code>%.*s</code></td><td>", (int)(equals - line), line);
+            plot_escape(out, value);
+            fputs("</td></tr>\n", out);
+        }
+        line += length + (line[length] == '\n');
+    }
+}
+
+static void solver_rows(FILE *out, const igabem_options *solver)
+{
+    bayesopt_attribute list[SOLVER_MOST];
+    size_t n = record_solver(solver, list);
+    for (size_t i = 0; i < n; i++) {
+        fprintf(out, "<tr><td><code>%s</code></td><td>", list[i].name);
+        if (list[i].text)
+            plot_escape(out, list[i].text);
+        else
+            fprintf(out, "%.15g", list[i].number);
+        fputs("</td></tr>\n", out);
+    }
+}
+
+static void optimum_parameters(FILE *out, const struct results *r)
+{
+    fputs("<h3>The optimum</h3><p class=\"note\">Latent point, metres:</p><p><code>", out);
+    for (size_t k = 0; k < galv_model_modes(r->problem->model); k++)
+        fprintf(out, "%s%.6g", k ? ", " : "", r->best->u[k]);
+    fputs("</code></p>\n", out);
+    if (!r->parameters)
+        return;
+    fprintf(out,
+            "<p class=\"note\">Nearest parameters of the original family, metres; the hull they "
+            "give differs by %.2f mm root mean square:</p><p><code>",
+            1e3 * r->residual);
+    for (size_t k = 0; k < r->n_parameters; k++)
+        fprintf(out, "%s%.5f", k ? ", " : "", r->parameters[k]);
+    fputs("</code></p>\n", out);
+}
+
+void report_settings(FILE *out, const struct results *r)
+{
+    struct results_times t = results_times(r);
+    fputs("<section><h2>Settings</h2><div class=\"two\"><div><table><thead><tr><th>run</th>"
+          "<th></th></tr></thead><tbody>\n",
+          out);
+    setting_rows(out, r->problem->config->text);
+    fputs("</tbody></table></div><div><table><thead><tr><th>solver, fixed on the original</th>"
+          "<th></th></tr></thead><tbody>\n",
+          out);
+    solver_rows(out, &r->problem->solver);
+    fprintf(out,
+            "</tbody></table><table style=\"margin-top:18px\"><thead><tr><th>time of an "
+            "evaluation</th><th></th></tr></thead><tbody><tr><td>geometry</td><td>%.3f s</td></tr>"
+            "<tr><td>solve</td><td>%.3f s</td></tr><tr><td>proposal</td><td>%.3f s</td></tr>"
+            "<tr><td>sessions of the run</td><td>%zu</td></tr></tbody></table>\n",
+            t.geometry, t.solve, t.propose, r->sessions);
+    optimum_parameters(out, r);
+    fputs("</div></div></section>\n", out);
+}
