@@ -6,7 +6,6 @@
 #include <igabem/kelvin.h>
 
 #include <math.h>
-#include <omp.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -6,7 +6,6 @@
 #include "space/quadrature_singular.h"
 
 #include <math.h>
-#include <omp.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>

@@ -10,7 +10,6 @@
 #include "kelvin/wave_math.h"
 
 #include <math.h>
-#include <omp.h>
 #include <stdlib.h>
 #include <string.h>
 

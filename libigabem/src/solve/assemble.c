@@ -1,7 +1,6 @@
 #include "solve/assemble.h"
 
 #include <math.h>
-#include <omp.h>
 #include <string.h>
 
 /* Adds half the basis at a collocation point: the jump of the normal velocity. */

@@ -3,9 +3,28 @@
 #include "solve/formulation.h"
 #include "solve/setting.h"
 
-#include <omp.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+static double wall_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static int threads_at_hand(void)
+{
+#ifdef _OPENMP
+    return omp_get_max_threads();
+#else
+    return 1;
+#endif
+}
 
 bool group_has_both(const igabem_options *a, const igabem_options *b)
 {
@@ -78,7 +97,7 @@ static igabem_status solve_settings(struct influence *influence, struct parts *p
     igabem_status status = IGABEM_OK;
     for (size_t m = 0; m < n && status == IGABEM_OK; m++) {
         igabem_solution *solution = solutions[m];
-        double start = omp_get_wtime();
+        double start = wall_seconds();
         solution->cost = shared_cost;
         influence->cost = &solution->cost;
         if (parts->local && formulation_has_waves(&solution->options) &&
@@ -88,7 +107,7 @@ static igabem_status solve_settings(struct influence *influence, struct parts *p
         }
         if (status == IGABEM_OK)
             status = setting_solve(influence, parts, progress, done + 0.5 * share, solution);
-        solution->seconds = common + omp_get_wtime() - start;
+        solution->seconds = common + wall_seconds() - start;
         done += share;
         if (status == IGABEM_OK)
             status = progress_report(progress, done);
@@ -99,13 +118,13 @@ static igabem_status solve_settings(struct influence *influence, struct parts *p
 igabem_status group_solve(size_t n, igabem_solution *const *solutions, double share,
                           struct progress *progress)
 {
-    double start = omp_get_wtime(), done = progress->done;
+    double start = wall_seconds(), done = progress->done;
     const igabem_solution *first = solutions[0];
     struct mesh *mesh = NULL;
     struct influence *influence = NULL;
     struct parts parts = {NULL, NULL, NULL, 0.0};
     struct igabem_cost shared_cost = {0};
-    int threads = first->options.threads > 0 ? first->options.threads : omp_get_max_threads();
+    int threads = first->options.threads > 0 ? first->options.threads : threads_at_hand();
     igabem_status status = mesh_create(first->density, &mesh);
     if (status == IGABEM_OK)
         status =
@@ -114,7 +133,7 @@ igabem_status group_solve(size_t n, igabem_solution *const *solutions, double sh
         influence->cost = &shared_cost;
         status = fill_parts(influence, n, solutions, &parts);
     }
-    double common = (omp_get_wtime() - start) / (double)n;
+    double common = (wall_seconds() - start) / (double)n;
     if (parts.rankine) {
         share *= 0.5;
         done += share * (double)n;
