@@ -65,6 +65,32 @@ static void dtmb5415_within_its_tolerance(void)
     hull5415_free(&hull);
 }
 
+/* A skin of offsets overshoots the centre plane at the stem. Its own reach across is mended first,
+ * so that the cut is as near to the mended hull as it was asked to be, and ends at the keel with y
+ * >= 0. */
+static void offsets_across_the_centre_plane(void)
+{
+    nurbs_grid *grid = NULL;
+    nurbs_surface *hull = NULL, *mended = NULL, *wet = NULL;
+    double moved;
+    CU_ASSERT_EQUAL_FATAL(
+        nurbs_offsets_read(EXAMPLES_DIR "/hulls/series60.offsets.csv", 0, &grid, NULL), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_skin(grid, NULL, &hull), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_raise_side(hull, &mended, &moved), NURBS_OK);
+    CU_ASSERT(moved > 1e-4);
+    for (double tolerance = 1e-3; tolerance > 1e-6; tolerance /= 10) {
+        CU_ASSERT_EQUAL_FATAL(nurbs_surface_wetted(hull, -0.01, tolerance, &wet), NURBS_OK);
+        CHECK_CLOSE(deviation(mended, wet, -0.01, 400), 0, tolerance);
+        const double *p = nurbs_surface_points(wet);
+        for (size_t k = 0; k < nurbs_surface_size(wet, 0) * nurbs_surface_size(wet, 1); k++)
+            CU_ASSERT(p[3 * k + 1] >= 0 && p[3 * k + 2] <= -0.01);
+        nurbs_surface_free(wet);
+    }
+    nurbs_surface_free(hull);
+    nurbs_surface_free(mended);
+    nurbs_grid_free(grid);
+}
+
 static void keeps_the_knots_along_the_hull(void)
 {
     struct hull5415 hull;
@@ -373,6 +399,7 @@ static void contour_is_the_waterline(void)
 
 static const struct check_case cases[] = {
     {"DTMB 5415 within its tolerance", dtmb5415_within_its_tolerance},
+    {"offsets across the centre plane", offsets_across_the_centre_plane},
     {"keeps the knots along the hull", keeps_the_knots_along_the_hull},
     {"modified hulls stay on their side", modified_hulls_stay_on_their_side},
     {"wigley is its own wetted part", wigley_is_its_own_wetted_part},

@@ -19,9 +19,12 @@ extern "C" {
  * exactly) to the keel (v = 1). Edges in the plane y = 0 stay in it exactly and y never becomes
  * negative on a half hull. Sections of u that do not reach the level at an end of the hull (an
  * overhanging bow or stern) are left out: the surface then starts where the profile meets the
- * level. Errors (NURBS_ERROR_GEOMETRY, with the place): the hull does not cross the level, a
- * section crosses it more than once, or the surface is folded.
- * @param tolerance  metres; how far the cut surface may lie from the original (1e-5 of the length)
+ * level. A half hull that reaches across the centre plane is lifted first, by
+ * nurbs_surface_raise_side(). Errors (with the place): NURBS_ERROR_GEOMETRY: the hull does not
+ * cross the level, a section crosses it more than once, or the surface is folded;
+ * NURBS_ERROR_NUMERIC: the tolerance cannot be kept.
+ * @param tolerance  metres; how far the cut surface may lie from the (lifted) original, measured
+ *                   after the last step on 7 x 7 places a span (1e-5 of the length)
  */
 NURBS_API nurbs_status nurbs_surface_wetted(const nurbs_surface *hull, double level,
                                             double tolerance, nurbs_surface **wetted);

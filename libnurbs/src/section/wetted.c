@@ -4,6 +4,8 @@
  * are kept; spans of either direction are halved until the spline follows T within a part of the
  * tolerance inside every span. Where the hull may break (u knots of full multiplicity)
  * only those lines w = constant break that have a kink there. */
+#include "section/wetted.h"
+
 #include "core/error.h"
 #include "fit/interpolate.h"
 #include "fit/tensor_refine.h"
@@ -14,6 +16,7 @@
 #include <nurbs/section.h>
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -328,15 +331,38 @@ static nurbs_status assemble(build *work, nurbs_surface **wetted)
     return status;
 }
 
-nurbs_status nurbs_surface_wetted(const nurbs_surface *hull, double level, double tolerance,
-                                  nurbs_surface **wetted)
+/* Fits, looks how far the result is from the sections after the last step, and divides the spans in
+ * which that is too far, until the tolerance is kept. */
+static nurbs_status fit_within(build *work, nurbs_surface **wetted, double *deviation)
+{
+    enum { ROUNDS = 6 };
+    const tensor_map map = {section_points, work};
+    for (int round = 0;; round++) {
+        unsigned char *parts[2] = {NULL, NULL};
+        nurbs_status status = assemble(work, wetted);
+        if (status == NURBS_OK)
+            status = tensor_measure(&map, *wetted, work->tolerance, parts, deviation);
+        bool kept = status == NURBS_OK && *deviation <= work->tolerance;
+        if (status == NURBS_OK && !kept && round == ROUNDS)
+            status = nurbs_fail(NURBS_ERROR_NUMERIC,
+                                "the cut surface cannot be brought nearer to the hull than %.3g m, "
+                                "expected %.3g m",
+                                *deviation, work->tolerance);
+        for (int d = 0; d < 2 && !kept && status == NURBS_OK; d++)
+            status = knot_list_divide(&work->along[d], parts[d]);
+        free(parts[0]);
+        free(parts[1]);
+        if (kept || status != NURBS_OK)
+            return status;
+        nurbs_surface_free(*wetted);
+        *wetted = NULL;
+    }
+}
+
+static nurbs_status cut_surface(const nurbs_surface *hull, double level, double tolerance,
+                                nurbs_surface **wetted, double *deviation)
 {
     build work = {.tolerance = tolerance};
-    *wetted = NULL;
-    if (!isfinite(level))
-        return nurbs_fail(NURBS_ERROR_ARGUMENT, "level %g is not finite", level);
-    if (!(isfinite(tolerance) && tolerance > 0))
-        return nurbs_fail(NURBS_ERROR_ARGUMENT, "tolerance %g, expected a length > 0", tolerance);
     nurbs_status status = cut_create(hull, level, &work.sections);
     if (status != NURBS_OK)
         return status;
@@ -349,7 +375,7 @@ nurbs_status nurbs_surface_wetted(const nurbs_surface *hull, double level, doubl
         status =
             tensor_refine(&(const tensor_map){section_points, &work}, 0.4 * tolerance, work.along);
     if (status == NURBS_OK)
-        status = assemble(&work, wetted);
+        status = fit_within(&work, wetted, deviation);
     if (status == NURBS_OK)
         status = nurbs_surface_check_fold(*wetted, NULL);
     if (status != NURBS_OK) {
@@ -364,4 +390,33 @@ nurbs_status nurbs_surface_wetted(const nurbs_surface *hull, double level, doubl
     free(work.sites);
     free(work.net);
     return status;
+}
+
+/* What lies across the centre plane is the hull's own fault and no error of the cut: it is lifted
+ * first, so that the tolerance can be kept. */
+nurbs_status surface_wetted(const nurbs_surface *hull, double level, double tolerance,
+                            nurbs_surface **wetted, double *deviation)
+{
+    nurbs_surface *lifted = NULL;
+    double moved = 0;
+    *wetted = NULL;
+    *deviation = 0;
+    if (!isfinite(level))
+        return nurbs_fail(NURBS_ERROR_ARGUMENT, "level %g is not finite", level);
+    if (!(isfinite(tolerance) && tolerance > 0))
+        return nurbs_fail(NURBS_ERROR_ARGUMENT, "tolerance %g, expected a length > 0", tolerance);
+    nurbs_status status = NURBS_OK;
+    if (!nurbs_surface_weights(hull) && is_half_hull(hull))
+        status = nurbs_surface_raise_side(hull, &lifted, &moved);
+    if (status == NURBS_OK)
+        status = cut_surface(moved > 0 ? lifted : hull, level, tolerance, wetted, deviation);
+    nurbs_surface_free(lifted);
+    return status;
+}
+
+nurbs_status nurbs_surface_wetted(const nurbs_surface *hull, double level, double tolerance,
+                                  nurbs_surface **wetted)
+{
+    double deviation;
+    return surface_wetted(hull, level, tolerance, wetted, &deviation);
 }
