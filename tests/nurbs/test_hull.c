@@ -111,7 +111,11 @@ static void rebuilds_from_its_design_grid(void)
     nurbs_hull *parent = NULL, *hull = NULL;
     nurbs_grid *grid = NULL;
     CU_ASSERT_EQUAL_FATAL(nurbs_hull_create(patches, NULL, &parent), NURBS_OK);
-    CU_ASSERT_EQUAL(nurbs_hull_design_grid(parent, 0, 0, &grid), NURBS_ERROR_ARGUMENT);
+    CU_ASSERT_EQUAL_FATAL(nurbs_hull_design_grid(parent, 0, 0, &grid), NURBS_OK);
+    CU_ASSERT(nurbs_grid_rows(grid) == 3 && nurbs_grid_columns(grid) == 3); /* control points */
+    nurbs_grid_free(grid);
+    CU_ASSERT_EQUAL(nurbs_hull_design_grid(parent, 1, 0, &grid), NURBS_ERROR_ARGUMENT);
+    CU_ASSERT_EQUAL(nurbs_patches_design_grid(patches, 1, 0, 0, &grid), NURBS_ERROR_ARGUMENT);
     CU_ASSERT_EQUAL_FATAL(nurbs_hull_design_grid(parent, 41, 17, &grid), NURBS_OK);
     CU_ASSERT_EQUAL(nurbs_grid_rows(grid), 41);
     CU_ASSERT_EQUAL_FATAL(nurbs_hull_rebuild(parent, grid, &hull), NURBS_OK);

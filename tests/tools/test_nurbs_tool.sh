@@ -76,8 +76,8 @@ expect 1 "$nurbs" info bad.json
 says "bad.json: patch 0"
 expect 1 "$nurbs" convert "$hulls/wigley.json" hull.dxf
 says "hull.dxf"
-expect 1 "$nurbs" wetted "$hulls/wigley.json" --level 1 -o x.json
-says "u = 0"
+expect 1 "$nurbs" wetted "$hulls/wigley.json" --level -5 -o x.json
+says "wigley.json: nothing lies below"
 expect 1 "$nurbs" eval "$hulls/wigley.json" --patch 3 --at /dev/null
 says "no patch 3"
 
@@ -146,8 +146,8 @@ grep -q '"design_grid": \[90, 25\]' stdout || fail "design grid kept"
 expect 0 "$nurbs" simplify skin.json --tolerance 1e-3 -o light.json --json
 awk -v d="$(number bound)" 'BEGIN { exit !(d > 0 && d <= 1e-3) }' || fail "bound of simplify"
 expect 0 "$nurbs" wetted "$hulls/dtmb5415.json" -o wet.json --tolerance 1e-4 --json
-awk -v d="$(number deviation)" -v a="$(number above)" 'BEGIN { exit !(d > 0 && d <= 1e-4 && a <= 0) }' ||
-    fail "wetted hull: deviation $(number deviation), above $(number above)"
+awk -v d="$(number deviation)" 'BEGIN { exit !(d > 0 && d <= 1e-4) }' ||
+    fail "wetted hull: deviation $(number deviation)"
 expect 0 "$nurbs" hydrostatics wet.json --json
 close volume 0.5535 3e-3
 

@@ -58,6 +58,7 @@ int equilibrium_find(struct solve_request *request, struct hull_input *input)
         return cli_fail("%s: %s", request->hull.path, igabem_last_error());
     request->hull.pivot = info.hydrostatics.waterplane_centre;
     request->hull.length = length;
+    request->hull.quiet = true;
     double change = INFINITY;
     for (int i = 0; i < MOST_ITERATIONS; i++) {
         double sinkage, trim;

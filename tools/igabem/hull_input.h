@@ -17,22 +17,23 @@ struct hull_request {
     double sinkage, trim, pivot; /* attitude: m, positive down; radians, positive bow up, about
                                     x = pivot in the still water */
     bool unbounded; /* there is no water surface: the body is moved below z = 0 and not cut */
+    bool quiet;     /* what was done to the file has been told before */
 };
 
 struct hull_input {
-    nurbs_patches *patches; /* wetted, z = 0 the still water; owned */
-    igabem_hull *hull;      /* owned */
-    int cut;                /* some patch crossed the water */
-    int half;               /* y >= 0 only, the other side is the mirror image */
-    char note[160];         /* what was done to the file */
-    double level;           /* z of the still water in the file's axes */
-    double simplify_bound;  /* metres, 0 if nothing was simplified */
-    double lpp;             /* of the file, 0: none given */
+    nurbs_hull *source;           /* owned */
+    igabem_hull *hull;            /* owned */
+    const nurbs_patches *patches; /* light ones of the source: wetted, z = 0 the still water */
+    const char *note;             /* how the water divides the hull */
+    bool half;                    /* y >= 0 only, the other side is the mirror image */
+    double simplify_bound;        /* metres, 0 if nothing was simplified */
+    double lpp;                   /* of the file, 0: none given */
 };
 
 void hull_request_init(struct hull_request *request, const char *path);
 
-/* Reads, cuts, simplifies and checks. Returns CLI_OK, or CLI_FAILED after a message. */
+/* Reads, cleans, cuts, simplifies and checks; tells what was done to the file on stderr. Returns
+ * CLI_OK, or CLI_FAILED after a message. */
 int hull_input_read(const struct hull_request *request, struct hull_input *input);
 void hull_input_free(struct hull_input *input);
 

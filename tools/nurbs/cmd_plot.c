@@ -42,16 +42,25 @@ static int run(int argc, char **argv)
                                    {"width", OPTION_COUNT, &request.width, 100, 20000},
                                    {"output", OPTION_OUTPUT, &request.output, 0, 0}};
     int code = parse_options(argc, argv, OPTION_COUNT_OF(options), options, one_file, &json);
+    nurbs_hull_options hull_options;
+    nurbs_hull *hull = NULL;
     nurbs_patches *patches = NULL;
     if (code != CLI_OK)
         return code;
     if (!plot_check_path("--output", request.output))
         return CLI_USAGE;
-    if ((code = load_patches(argv[optind], &patches)) != CLI_OK)
-        return code;
+    nurbs_hull_options_init(&hull_options);
+    hull_options.level = lines->level;
+    hull_options.simplify = 0;
+    /* What is no hull is drawn as it stands: the picture shows what is wrong with it. */
+    if (load_hull(argv[optind], &hull_options, &hull) != CLI_OK)
+        code = load_patches(argv[optind], &patches);
+    const nurbs_patches *drawn = hull ? nurbs_hull_full(hull) : patches;
     if (!(lines->length > 0))
-        lines->length = nurbs_patches_length(patches);
-    code = draw(patches, &request) ? CLI_OK : CLI_FAILED;
+        lines->length = nurbs_patches_length(drawn);
+    if (code == CLI_OK)
+        code = draw(drawn, &request) ? CLI_OK : CLI_FAILED;
+    nurbs_hull_free(hull);
     nurbs_patches_free(patches);
     return code == CLI_OK && json ? print_json(json_pack("{s:s}", "file", request.output)) : code;
 }

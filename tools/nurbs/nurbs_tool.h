@@ -70,6 +70,12 @@ int load_patches(const char *path, nurbs_patches **patches);
 int load_surface(const char *path, size_t index, nurbs_patches **patches,
                  const nurbs_surface **surface);
 
+/* Reads a hull and tells on stderr what was done to the file. */
+int load_hull(const char *path, const nurbs_hull_options *options, nurbs_hull **hull);
+
+/* A new array of these sentences: "warnings" of JSON results. */
+json_t *hull_steps(const nurbs_hull *hull);
+
 /* Creates an empty set of patches with the length and note of `from` (NULL: none). */
 nurbs_status start_patches(const nurbs_patches *from, nurbs_patches **patches);
 

@@ -26,7 +26,8 @@ typedef struct nurbs_hull_options {
     double level;  /**< z of the still water in the file's axes, m; 0 */
     double draft;  /**< keel draft amidships that sets the level instead, m; NAN: not given */
     double length; /**< reference length, m; NAN: the file's, else the waterline's */
-    double cut;    /**< how far a cut surface may lie from the file's, over the extent in x; 1e-5 */
+    double
+        cut; /**< how far a cut surface may lie from the file's, m; NAN: 1e-5 of the extent in x */
     double
         simplify;   /**< tolerance of knot removal, over the extent in x (a rebuilt hull: over the
                          reference length); 0: none; NAN: 1e-4 for surfaces that are cut, else none */
@@ -54,13 +55,19 @@ NURBS_API nurbs_status nurbs_hull_create_surfaces(size_t n, const nurbs_surface 
 NURBS_API void nurbs_hull_free(nurbs_hull *hull);
 
 /** Creates the design grid of a hull of one patch: points on it that a shape family may move, the
- * sections in u. rows, columns: as many as the file keeps for its own design grid, or 0, give that
- * grid back; any other number gives parameters spaced like the Greville abscissae, so that they
- * crowd where the surface has detail, with one on every kink.
- * Errors: NURBS_ERROR_ARGUMENT: 0 though the file keeps none; NURBS_ERROR_GEOMETRY: several
- * patches, or that many lines cannot be laid over the knots. */
+ * sections in u. rows, columns: as many as the file keeps for its own design grid give that grid
+ * back; any other number gives parameters spaced like the Greville abscissae, so that they crowd
+ * where the surface has detail, with one on every kink. 0: as many as the file keeps, or, if it
+ * keeps none, as the patch has control points.
+ * Errors: NURBS_ERROR_GEOMETRY: several patches, or that many lines cannot be laid over the knots.
+ */
 NURBS_API nurbs_status nurbs_hull_design_grid(const nurbs_hull *hull, size_t rows, size_t columns,
                                               nurbs_grid **grid);
+
+/** The same of one of several patches, of a hull or not. Errors: NURBS_ERROR_ARGUMENT: no such
+ * patch. */
+NURBS_API nurbs_status nurbs_patches_design_grid(const nurbs_patches *patches, size_t index,
+                                                 size_t rows, size_t columns, nurbs_grid **grid);
 
 /** Creates the hull through the points of a grid: skinned (nurbs_skin() with its defaults), cut at
  * z = 0 within a tenth of the tolerance, and lightened by knot removal within the tolerance, edges
@@ -92,6 +99,9 @@ NURBS_API const nurbs_patches *nurbs_hull_light(const nurbs_hull *hull);
 
 /** Proven bound of the distance of light from wetted, m; 0 if nothing was simplified. */
 NURBS_API double nurbs_hull_bound(const nurbs_hull *hull);
+/** Largest distance of the wetted surfaces from the full ones, m, measured after the last step on 7
+ * places a span and direction; 0 if nothing was cut. At most options.cut. */
+NURBS_API double nurbs_hull_deviation(const nurbs_hull *hull);
 /** z of the still water in the axes of the file, m. */
 NURBS_API double nurbs_hull_level(const nurbs_hull *hull);
 /** Reference length, m: the option's, the file's, that of the waterline, or of the body. */

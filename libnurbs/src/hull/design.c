@@ -52,24 +52,56 @@ static bool spread_parameters(const nurbs_surface *surface, int axis, size_t n, 
 }
 
 /* The parameters that the file keeps for its own design grid, or such as suit the knots. */
-static nurbs_status choose_parameters(const nurbs_patches *full, int axis, size_t n, double *out)
+static nurbs_status choose_parameters(const nurbs_patches *patches, size_t index, int axis,
+                                      size_t n, double *out)
 {
     const double *kept;
-    if (n == nurbs_patches_parameters(full, 0, axis, &kept)) {
+    if (n == nurbs_patches_parameters(patches, index, axis, &kept)) {
         memcpy(out, kept, n * sizeof *out);
         return NURBS_OK;
     }
-    if (!spread_parameters(nurbs_patches_get(full, 0), axis, n, out))
+    if (!spread_parameters(nurbs_patches_get(patches, index), axis, n, out))
         return nurbs_fail(NURBS_ERROR_GEOMETRY,
                           "%zu grid lines cannot be laid over the knots in direction %d", n, axis);
     return NURBS_OK;
 }
 
-nurbs_status nurbs_hull_design_grid(const nurbs_hull *hull, size_t rows, size_t columns,
-                                    nurbs_grid **grid)
+nurbs_status nurbs_patches_design_grid(const nurbs_patches *patches, size_t index, size_t rows,
+                                       size_t columns, nurbs_grid **grid)
 {
     size_t n[2] = {rows, columns};
     const double *kept;
+    if (!patches || !grid)
+        return nurbs_fail(NURBS_ERROR_ARGUMENT, "patches or grid is NULL");
+    *grid = NULL;
+    const nurbs_surface *surface = nurbs_patches_get(patches, index);
+    if (!surface)
+        return nurbs_fail(NURBS_ERROR_ARGUMENT, "no patch %zu, there are %zu (counted from 0)",
+                          index, nurbs_patches_count(patches));
+    for (int a = 0; a < 2; a++) {
+        if (n[a] == 0)
+            n[a] = nurbs_patches_parameters(patches, index, a, &kept);
+        if (n[a] == 0)
+            n[a] = nurbs_surface_size(surface, a);
+        if (n[a] < 2)
+            return nurbs_fail(NURBS_ERROR_ARGUMENT, "a design grid of %zu %s, expected at least 2",
+                              n[a], a ? "columns" : "rows");
+    }
+    double *u = malloc((n[0] + n[1]) * sizeof *u);
+    if (!u)
+        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu parameters", n[0] + n[1]);
+    nurbs_status status = choose_parameters(patches, index, 0, n[0], u);
+    if (!status)
+        status = choose_parameters(patches, index, 1, n[1], u + n[0]);
+    if (!status)
+        status = nurbs_grid_sample(surface, n[0], u, n[1], u + n[0], grid);
+    free(u);
+    return status;
+}
+
+nurbs_status nurbs_hull_design_grid(const nurbs_hull *hull, size_t rows, size_t columns,
+                                    nurbs_grid **grid)
+{
     if (!hull || !grid)
         return nurbs_fail(NURBS_ERROR_ARGUMENT, "hull or grid is NULL");
     *grid = NULL;
@@ -77,23 +109,5 @@ nurbs_status nurbs_hull_design_grid(const nurbs_hull *hull, size_t rows, size_t 
         return nurbs_fail(NURBS_ERROR_GEOMETRY,
                           "%zu patches, expected one that covers the side of the hull",
                           nurbs_patches_count(hull->full));
-    for (int a = 0; a < 2; a++) {
-        if (n[a] == 0)
-            n[a] = nurbs_patches_parameters(hull->full, 0, a, &kept);
-        if (n[a] < 2)
-            return nurbs_fail(NURBS_ERROR_ARGUMENT,
-                              n[a] ? "a design grid of %zu %s, expected at least 2"
-                                   : "%zu %s, and the file keeps no design grid of its own",
-                              n[a], a ? "columns" : "rows");
-    }
-    double *u = malloc((n[0] + n[1]) * sizeof *u);
-    if (!u)
-        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu parameters", n[0] + n[1]);
-    nurbs_status status = choose_parameters(hull->full, 0, n[0], u);
-    if (!status)
-        status = choose_parameters(hull->full, 1, n[1], u + n[0]);
-    if (!status)
-        status = nurbs_grid_sample(nurbs_patches_get(hull->full, 0), n[0], u, n[1], u + n[0], grid);
-    free(u);
-    return status;
+    return nurbs_patches_design_grid(hull->full, 0, rows, columns, grid);
 }

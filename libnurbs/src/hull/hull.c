@@ -1,7 +1,7 @@
 #include "hull/hull.h"
-#include "hull/space.h"
 
 #include "core/error.h"
+#include "hull/space.h"
 
 #include <nurbs/io.h>
 #include <nurbs/topology.h>
@@ -12,10 +12,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { REPORT_SIZE = 4000 };
+
+static const double default_cut = 1e-5; /* of the extent */
+
 void nurbs_hull_options_init(nurbs_hull_options *options)
 {
     if (options)
-        *options = (nurbs_hull_options){.draft = NAN, .length = NAN, .cut = 1e-5, .simplify = NAN};
+        *options = (nurbs_hull_options){.draft = NAN, .length = NAN, .cut = NAN, .simplify = NAN};
 }
 
 static nurbs_status check_options(const nurbs_hull_options *o)
@@ -26,7 +30,7 @@ static nurbs_status check_options(const nurbs_hull_options *o)
                           o->level, o->sinkage, o->trim, o->pivot);
     if (!isnan(o->length) && !(o->length > 0 && isfinite(o->length)))
         return nurbs_fail(NURBS_ERROR_ARGUMENT, "length %g m, expected a positive one", o->length);
-    if (!(o->cut > 0) || o->simplify < 0 || isinf(o->simplify))
+    if (o->cut <= 0 || isinf(o->cut) || o->simplify < 0 || isinf(o->simplify))
         return nurbs_fail(NURBS_ERROR_ARGUMENT,
                           "tolerances %g of the cut and %g of the simplification, expected "
                           "positive ones",
@@ -36,24 +40,29 @@ static nurbs_status check_options(const nurbs_hull_options *o)
 
 nurbs_status hull_tell(nurbs_hull *hull, const char *format, ...)
 {
-    char(*more)[HULL_STEP_SIZE] = realloc(hull->step, (hull->steps + 1) * sizeof *more);
-    if (!more)
-        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu sentences", hull->steps + 1);
-    hull->step = more;
     va_list args;
     va_start(args, format);
-    vsnprintf(more[hull->steps++], HULL_STEP_SIZE, format, args);
+    int length = vsnprintf(NULL, 0, format, args);
     va_end(args);
+    char **more = realloc(hull->step, (hull->steps + 1) * sizeof *more);
+    if (more)
+        hull->step = more;
+    char *sentence = more && length >= 0 ? malloc((size_t)length + 1) : NULL;
+    if (!sentence)
+        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu sentences", hull->steps + 1);
+    va_start(args, format);
+    vsnprintf(sentence, (size_t)length + 1, format, args);
+    va_end(args);
+    hull->step[hull->steps++] = sentence;
     return NURBS_OK;
 }
 
 /* The sentence about the water is told last and read first. */
 static void water_first(nurbs_hull *hull)
 {
-    char last[HULL_STEP_SIZE];
-    memcpy(last, hull->step[hull->steps - 1], sizeof last);
+    char *last = hull->step[hull->steps - 1];
     memmove(hull->step + 1, hull->step, (hull->steps - 1) * sizeof *hull->step);
-    memcpy(hull->step[0], last, sizeof last);
+    hull->step[0] = last;
 }
 
 static void choose_length(nurbs_hull *hull)
@@ -75,6 +84,8 @@ static nurbs_status make(nurbs_hull *hull)
     if (status)
         return status;
     hull->extent = box.upper[0] - box.lower[0];
+    if (isnan(hull->options.cut))
+        hull->options.cut = default_cut * hull->extent;
     hull->lpp = nurbs_patches_length(hull->full);
     status = hull_choose_level(hull, &box);
     if (!status)
@@ -110,7 +121,7 @@ static nurbs_status start(const nurbs_hull_options *options, nurbs_hull **hull)
 
 nurbs_status nurbs_hull_read(const char *path, const nurbs_hull_options *options, nurbs_hull **hull)
 {
-    char report[HULL_STEP_SIZE];
+    char report[REPORT_SIZE];
     if (!path || !hull)
         return nurbs_fail(NURBS_ERROR_ARGUMENT, "path or hull is NULL");
     *hull = NULL;
@@ -181,6 +192,8 @@ void nurbs_hull_free(nurbs_hull *hull)
     nurbs_patches_free(hull->wetted);
     nurbs_patches_free(hull->full);
     hull_space_free(hull->space);
+    for (size_t k = 0; k < hull->steps; k++)
+        free(hull->step[k]);
     free(hull->step);
     free(hull);
 }
@@ -203,6 +216,11 @@ const nurbs_patches *nurbs_hull_light(const nurbs_hull *hull)
 double nurbs_hull_bound(const nurbs_hull *hull)
 {
     return hull ? hull->bound : 0;
+}
+
+double nurbs_hull_deviation(const nurbs_hull *hull)
+{
+    return hull ? hull->deviation : 0;
 }
 
 double nurbs_hull_level(const nurbs_hull *hull)

@@ -7,19 +7,18 @@
 /* Relative to the extent in x: a surface that stays within this of a plane lies in it. */
 #define HULL_CLEARANCE 1e-6
 
-enum { HULL_STEP_SIZE = 200 };
-
 struct nurbs_hull {
     nurbs_hull_options options;
     nurbs_patches *full, *wetted;
     nurbs_patches *light; /* may be `wetted` itself */
     double extent;        /* of the file in x, m */
     double level, length, lpp, bound;
+    double deviation; /* of cut surfaces from the full ones, m */
     bool half, cut, waterline, shares_space;
     struct hull_space *space; /* of the hulls rebuilt from this one; NULL: none */
     nurbs_hydrostatics hydrostatics;
     size_t steps;
-    char (*step)[HULL_STEP_SIZE];
+    char **step;
 };
 
 /* Corners of the box of samples of a surface, or of all patches, which widen the box given. */

@@ -2,8 +2,8 @@
 #include "core/error.h"
 #include "hull/hull.h"
 #include "hull/space.h"
+#include "section/wetted.h"
 
-#include <nurbs/section.h>
 #include <nurbs/simplify.h>
 
 #include <math.h>
@@ -35,10 +35,11 @@ static double tolerance(const nurbs_hull *hull)
 }
 
 static nurbs_status skin_and_cut(const hull_space *space, const nurbs_grid *grid, double within,
-                                 nurbs_surface **full, nurbs_surface **wetted)
+                                 nurbs_surface **full, nurbs_surface **wetted, double *deviation)
 {
     nurbs_status status = stage(hull_space_skin(space, grid, full), "skin");
-    return status ? status : stage(nurbs_surface_wetted(*full, 0, within, wetted), "waterline");
+    return status ? status
+                  : stage(surface_wetted(*full, 0, within, wetted, deviation), "waterline");
 }
 
 static nurbs_status thin(const nurbs_surface *wetted, double within, nurbs_surface **light,
@@ -77,7 +78,8 @@ static nurbs_status lighten(nurbs_hull *hull, const hull_space *space, const nur
 static nurbs_status build(nurbs_hull *hull, const hull_space *space, const nurbs_grid *grid)
 {
     nurbs_surface *full = NULL, *wetted = NULL, *light = NULL;
-    nurbs_status status = skin_and_cut(space, grid, cut_share * tolerance(hull), &full, &wetted);
+    nurbs_status status =
+        skin_and_cut(space, grid, cut_share * tolerance(hull), &full, &wetted, &hull->deviation);
     if (!status)
         status = add_to(&hull->full, full);
     if (!status)
@@ -127,8 +129,8 @@ static nurbs_status start_space(const nurbs_hull *parent, const nurbs_grid *grid
                                 hull_space **space)
 {
     nurbs_surface *full = NULL, *wetted = NULL, *light = NULL;
-    double fine = cut_share * tolerance(parent);
-    nurbs_status status = skin_and_cut(NULL, grid, fine, &full, &wetted);
+    double fine = cut_share * tolerance(parent), deviation;
+    nurbs_status status = skin_and_cut(NULL, grid, fine, &full, &wetted, &deviation);
     if (!status)
         status = thin(wetted, knot_share * tolerance(parent), &light, NULL);
     if (!status)
@@ -144,8 +146,9 @@ static nurbs_status widen_space(const nurbs_hull *parent, const nurbs_grid *desi
                                 hull_space *space)
 {
     nurbs_surface *full = NULL, *wetted = NULL;
+    double deviation;
     nurbs_status status =
-        skin_and_cut(space, design, cut_share * tolerance(parent), &full, &wetted);
+        skin_and_cut(space, design, cut_share * tolerance(parent), &full, &wetted, &deviation);
     if (!status)
         status = hull_space_widen(space, wetted, tolerance(parent));
     nurbs_surface_free(full);

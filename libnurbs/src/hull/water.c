@@ -1,9 +1,9 @@
 /* Where the still water is, and what lies below it. */
 #include "core/error.h"
 #include "hull/hull.h"
+#include "section/wetted.h"
 
 #include <nurbs/modify.h>
-#include <nurbs/section.h>
 #include <nurbs/simplify.h>
 #include <nurbs/topology.h>
 
@@ -14,24 +14,24 @@ static const double simplify_cut = 1e-4; /* of the extent, where nothing else is
 /* The part below the level; sections are lines of constant u, or of constant v where those do not
  * cross the level. */
 static nurbs_status cut_patch(const nurbs_surface *patch, double level, double tolerance,
-                              nurbs_surface **below)
+                              nurbs_surface **below, double *deviation)
 {
     nurbs_surface *swapped = NULL;
-    nurbs_status status = nurbs_surface_wetted(patch, level, tolerance, below);
+    nurbs_status status = surface_wetted(patch, level, tolerance, below, deviation);
     if (status != NURBS_ERROR_GEOMETRY)
         return status;
     status = nurbs_surface_swap(patch, &swapped);
     if (!status)
-        status = nurbs_surface_wetted(swapped, level, tolerance, below);
+        status = surface_wetted(swapped, level, tolerance, below, deviation);
     nurbs_surface_free(swapped);
     /* The message that names the patch's own parameters. */
-    return status ? nurbs_surface_wetted(patch, level, tolerance, below) : status;
+    return status ? surface_wetted(patch, level, tolerance, below, deviation) : status;
 }
 
 /* One patch below the level, moved so that the water lies at z = 0; *wetted NULL when nothing of it
  * is below. */
-static nurbs_status wet_patch(const nurbs_hull *hull, const nurbs_surface *patch, double level,
-                              bool *cut, nurbs_surface **wetted)
+static nurbs_status wet_patch(nurbs_hull *hull, const nurbs_surface *patch, double level, bool *cut,
+                              nurbs_surface **wetted)
 {
     double clearance = HULL_CLEARANCE * hull->extent;
     hull_box box = hull_box_empty();
@@ -41,9 +41,11 @@ static nurbs_status wet_patch(const nurbs_hull *hull, const nurbs_surface *patch
     if (status || box.lower[2] >= level - clearance)
         return status;
     nurbs_surface *below = NULL;
+    double deviation = 0;
     *cut = box.upper[2] > level + clearance;
-    status = *cut ? cut_patch(patch, level, hull->options.cut * hull->extent, &below)
+    status = *cut ? cut_patch(patch, level, hull->options.cut, &below, &deviation)
                   : nurbs_surface_copy(patch, &below);
+    hull->deviation = fmax(hull->deviation, deviation);
     if (!status && level == 0.0) {
         *wetted = below;
         return NURBS_OK;
@@ -122,7 +124,7 @@ nurbs_status hull_wet(nurbs_hull *hull)
 }
 
 /* Keel draft of the hull at the file's own level 0. */
-static nurbs_status file_draft(const nurbs_hull *hull, double *draft)
+static nurbs_status file_draft(nurbs_hull *hull, double *draft)
 {
     nurbs_patches *wetted = NULL;
     nurbs_hydrostatics h = {0};
