@@ -91,9 +91,81 @@ static void test_reduce_from_samples(void)
     CU_ASSERT_STRING_EQUAL(json_string_value(json_object_get(root, "method")), "gram");
     json_decref(root);
     scratch_write("short.csv", "x1,x2\n0,0\n");
-    expect("reduce --hull hull.csv --shape shape.yaml --samples short.csv", 1, "4 parameters");
+    expect("reduce --hull hull.csv --shape shape.yaml --samples short.csv", 1, "x1 to x4");
     scratch_write("nan.csv", "a,b,c,d\n0,0,0,0\n0,nan,0,0\n");
     expect("reduce --hull hull.csv --shape shape.yaml --samples nan.csv", 1, "nan.csv:3");
+}
+
+/* A file of samples without a header keeps its first one, and a byte order mark is no part of a
+ * name. */
+static void test_first_lines(void)
+{
+    static const char rows[] = "0.01,0,0,0.01\n0,0.02,0.01,0\n0,-0.01,0.005,0.02\n";
+    char text[200];
+    write_inputs();
+    scratch_write("bare.csv", rows);
+    snprintf(text, sizeof text, "x1,x2,x3,x4\n%s", rows);
+    scratch_write("named.csv", text);
+    snprintf(text, sizeof text, "\xEF\xBB\xBFx1,x2,x3,x4\n%s", rows);
+    scratch_write("marked.csv", text);
+    snprintf(text, sizeof text, "\xEF\xBB\xBF%s", rows);
+    scratch_write("both.csv", text);
+    static const char *const names[] = {"named", "bare", "marked", "both"};
+    json_t *first = NULL;
+    for (size_t i = 0; i < 4; i++) {
+        snprintf(text, sizeof text,
+                 "reduce --hull hull.csv --shape shape.yaml --samples %s.csv --json", names[i]);
+        json_t *root = run_json(text);
+        CU_ASSERT_EQUAL(number(root, "samples"), 3);
+        if (i == 0)
+            first = json_incref(json_object_get(root, "eigenvalues"));
+        CU_ASSERT_TRUE(json_equal(json_object_get(root, "eigenvalues"), first));
+        CU_ASSERT_EQUAL(json_array_size(json_object_get(root, "warnings")), 0);
+        json_decref(root);
+    }
+    json_decref(first);
+    scratch_write("bare_hull.csv", "1,1,0,0.1,-0.3\n1,2,0,0.1,0.1\n");
+    expect("reduce --hull bare_hull.csv --shape shape.yaml --random 9", 1, "columns x, y and z");
+}
+
+/* Parameters outside of their bounds are taken, and said. */
+static void test_outside_bounds(void)
+{
+    write_inputs();
+    json_decref(run_json(reduce));
+    scratch_write("wide.csv", "x1,x2,x3,x4\n0.01,0,0,0\n0,0.5,0.02,0\n");
+    static const char *const commands[] = {
+        "reduce --hull hull.csv --shape shape.yaml --samples wide.csv --json",
+        "extend model.h5 --samples wide.csv --json",
+        "project model.h5 --parameters wide.csv --json",
+        "reconstruct model.h5 --parameters 0,0.5,0.02 --json",
+    };
+    for (size_t i = 0; i < 4; i++) {
+        struct run run = run_tool(commands[i]);
+        CU_ASSERT_EQUAL(run.code, 0);
+        CU_ASSERT_PTR_NOT_NULL(strstr(run.errors, "2 parameters lie outside of their bounds"));
+        CU_ASSERT_PTR_NOT_NULL(strstr(run.errors, "x2 is 0.5"));
+        json_t *root = json_loads(run.output, 0, NULL);
+        CU_ASSERT_EQUAL(json_array_size(json_object_get(root, "warnings")), 1);
+        json_decref(root);
+        run_free(&run);
+    }
+    expect("project model.h5 --parameters 0.02,-0.02,0.01,0.02", 0, NULL);
+}
+
+static void test_bad_grids(void)
+{
+    static const char *const bad[] = {"-1", "4e9", "1.5"};
+    char text[200];
+    write_inputs();
+    for (size_t i = 0; i < 3; i++) {
+        snprintf(text, sizeof text, "i,j,x,y,z\n1,1,0,0.1,-0.3\n%s,2,0,0.1,0.1\n", bad[i]);
+        scratch_write("bad.csv", text);
+        expect("reduce --hull bad.csv --shape shape.yaml --random 9", 1, "bad.csv:3: i is");
+        snprintf(text, sizeof text, "i,j,x,y,z\n1,1,0,0.1,-0.3\n1,%s,0,0.1,0.1\n", bad[i]);
+        scratch_write("bad.csv", text);
+        expect("reduce --hull bad.csv --shape shape.yaml --random 9", 1, "bad.csv:3: j is");
+    }
 }
 
 static void test_model_round_trip(void)
@@ -188,7 +260,7 @@ static void test_extend(void)
     expect("extend model.h5", 2, "--random");
     expect("extend model.h5 --random 5 --samples more.csv", 2, "--random");
     expect("extend model.h5 --random 5 --variance 0", 2, "--variance");
-    expect("info model.h5 --random 5", 2, "no such option");
+    expect("info model.h5 --random 5", 2, "there is no option '--random'");
     json_decref(before);
     json_decref(grown);
     json_decref(whole);
@@ -223,9 +295,9 @@ static void test_moments_and_lattice(void)
     expect("reduce --hull hull.csv --shape shape.yaml --random 30 --section-moments 1:20:5", 1,
            "section 20");
     expect("reduce --hull hull.csv --shape shape.yaml --random 30 --section-moments 1:2", 2,
-           "ORDER:FIRST:STRIDE");
+           "3 whole numbers");
     expect("reduce --hull hull.csv --shape shape.yaml --random 30 --section-moments 1:2:3:4:5", 2,
-           "ORDER:FIRST:STRIDE");
+           "3 whole numbers");
     scratch_write("p.csv", "0.01,0,0,0\n0.01,0,0,0\n");
     root = run_json("project moments.h5 --parameters 0.01,0.002 --json");
     json_decref(root);
@@ -268,7 +340,21 @@ static void test_drawings(void)
     expect("plot model.h5 -o plot.txt", 2, ".svg, .png or .pdf");
     expect("animate model.h5 -o strip.svg --modes 2 --frames 3 --scale 2", 0, NULL);
     expect_svg("strip.svg", "<animate");
-    expect("plot model.h5", 2, "-o");
+    json_t *root = run_json("plot model.h5 -o again.svg --json");
+    CU_ASSERT_STRING_EQUAL(json_string_value(json_object_get(root, "file")), "again.svg");
+    json_decref(root);
+    root = run_json("animate model.h5 -o strip.svg --modes 2 --json");
+    CU_ASSERT_EQUAL(number(root, "modes"), 2);
+    json_decref(root);
+    root = run_json("reconstruct model.h5 --latent 0.01 --json");
+    CU_ASSERT_EQUAL(json_array_size(json_object_get(root, "points")), SECTIONS * GIRTH);
+    CU_ASSERT_TRUE(number(root, "radius") > 0);
+    json_decref(root);
+    root = run_json("reconstruct model.h5 --latent 0.01 -o moved.csv --json");
+    CU_ASSERT_STRING_EQUAL(json_string_value(json_object_get(root, "file")), "moved.csv");
+    CU_ASSERT_PTR_NULL(json_object_get(root, "points"));
+    json_decref(root);
+    expect("plot model.h5", 2, "--output");
     expect("plot model.h5 -o no/such/folder/plot.svg", 1, "no/such/folder");
 }
 
@@ -392,6 +478,9 @@ static void test_bad_models_are_refused(void)
 static const struct check_case cases[] = {
     {"reduce prints JSON that adds up", test_reduce_prints_json},
     {"reduce from a file of samples", test_reduce_from_samples},
+    {"first lines of samples", test_first_lines},
+    {"parameters outside of their bounds", test_outside_bounds},
+    {"numbers of sections", test_bad_grids},
     {"model files keep every bit", test_model_round_trip},
     {"there and back", test_there_and_back},
     {"a model grows", test_extend},

@@ -5,6 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* The byte order mark that some programs begin a file with. */
+static const char MARK[] = "\xEF\xBB\xBF";
+
 static char *trim(char *text)
 {
     while (isspace((unsigned char)*text))
@@ -15,11 +18,46 @@ static char *trim(char *text)
     return text;
 }
 
+static size_t count_fields(const char *line)
+{
+    size_t n = 1;
+    for (const char *c = line; *c; c++)
+        n += *c == ',';
+    return n;
+}
+
+/* Whether a first line is a row already: a file without a header must not lose it. */
+static bool all_numbers(const char *line)
+{
+    double value;
+    char *copy = strdup(line);
+    bool ok = copy != NULL;
+    for (char *start = copy; start && ok;) {
+        char *comma = strchr(start, ',');
+        if (comma)
+            *comma = '\0';
+        ok = cli_parse_double(trim(start), &value);
+        start = comma ? comma + 1 : NULL;
+    }
+    free(copy);
+    return ok;
+}
+
+/* Columns that have no names. */
+static bool skip_header(size_t columns, struct cli_table *table)
+{
+    table->names = calloc(columns, sizeof *table->names);
+    if (!table->names)
+        return false;
+    while (table->columns < columns)
+        if (!(table->names[table->columns++] = strdup("")))
+            return false;
+    return true;
+}
+
 static bool read_header(char *line, struct cli_table *table)
 {
-    size_t most = 1;
-    for (const char *c = line; *c; c++)
-        most += *c == ',';
+    size_t most = count_fields(line);
     table->names = calloc(most, sizeof *table->names);
     if (!table->names)
         return false;
@@ -51,7 +89,7 @@ static bool read_row(char *line, const char *path, size_t number, double *row, s
         start = comma ? comma + 1 : NULL;
     }
     if (k != columns) {
-        cli_fail("%s:%zu: %zu fields, expected %zu as in the header", path, number, k, columns);
+        cli_fail("%s:%zu: %zu fields, expected %zu as in the first line", path, number, k, columns);
         return false;
     }
     return true;
@@ -64,13 +102,17 @@ static bool read_stream(FILE *stream, const char *path, struct cli_table *table)
     bool ok = true;
     while (ok && getline(&line, &capacity, stream) >= 0) {
         number++;
-        char *text = trim(line);
+        char *text =
+            trim(number == 1 && strncmp(line, MARK, sizeof MARK - 1) == 0 ? line + sizeof MARK - 1
+                                                                          : line);
         if (*text == '\0' || *text == '#')
             continue;
         if (!table->names) {
-            if (!(ok = read_header(text, table)))
-                cli_fail("out of memory");
-            continue;
+            bool row = all_numbers(text);
+            ok = (row ? skip_header(count_fields(text), table) : read_header(text, table)) ||
+                 cli_refuse("out of memory");
+            if (!row || !ok)
+                continue;
         }
         if (table->rows == room) {
             room = room ? 2 * room : 256;

@@ -1,20 +1,31 @@
+#include "arguments.h"
 #include "cli.h"
 #include "commands.h"
 #include "plot/ship.h"
-#include "use.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const char help[] =
-    "usage: galv animate MODEL -o FILE.svg|FILE.png|FILE.pdf [--modes K] [--frames F] [--scale S]\n"
-    "\n"
-    "Draws, for each of the first K latent directions (default 3), the body plans of F hulls "
-    "(default 5)\n"
-    "from the lower to the upper end of the samples, the parent in grey, and in an SVG the same as "
-    "a\n"
-    "moving picture. S multiplies the displacements (default 1).\n";
+static const struct setting ROWS[] = {
+    OPTION_MODEL,
+    OPTION_PICTURE,
+    OPTION_SHOWN,
+    OPTION("frames", COUNT, frames, .least = 1, .most = 1000, .otherwise = "5",
+           .sentence = "hulls from the lower to the upper end of the samples"),
+    OPTION("scale", NUMBER, scale, .least = 0, .most = INFINITY, .open_least = true,
+           .otherwise = "1", .sentence = "multiplies the displacements"),
+    OPTION_JSON,
+};
+
+static const struct settings TABLE = {
+    sizeof ROWS / sizeof *ROWS, ROWS,
+    .usage = "usage: galv animate MODEL -o FILE.svg|FILE.png|FILE.pdf [--modes K] [--frames F] "
+             "[--scale S] [--json]\n"
+             "\n"
+             "Draws, for each of the leading latent directions, body plans from the lower to the "
+             "upper end\n"
+             "of the samples, the parent in grey, and in an SVG the same as a moving picture.\n\n"};
 
 enum { PANEL = 190, GAP = 20, HEADER = 34 };
 
@@ -156,20 +167,18 @@ static bool animate(struct strip *strip, const char *output)
     return cli_refuse("%s", galv_last_error());
 }
 
-static bool run(const struct use *use)
+static bool run(const struct arguments *a)
 {
-    const galv_model *model = use->file.model;
-    struct strip strip = {.file = &use->file,
-                          .modes = use->modes ? use->modes : 3,
-                          .frames = use->frames ? use->frames : 5,
-                          .scale = use->scale};
+    const galv_model *model = a->file.model;
+    struct strip strip = {
+        .file = &a->file, .modes = a->modes, .frames = a->frames, .scale = a->scale};
     if (strip.modes > galv_model_modes(model))
         strip.modes = galv_model_modes(model);
-    if (!use->file.girth)
+    if (!a->file.girth)
         return cli_refuse("the points of this model are no grid of sections");
     strip.hull = malloc(galv_model_coordinates(model) * sizeof *strip.hull);
     strip.u = malloc(galv_model_modes(model) * sizeof *strip.u);
-    bool good = strip.hull && strip.u ? animate(&strip, use->output) : cli_refuse("out of memory");
+    bool good = strip.hull && strip.u ? animate(&strip, a->output) : cli_refuse("out of memory");
     free(strip.hull);
     free(strip.u);
     return good;
@@ -177,16 +186,5 @@ static bool run(const struct use *use)
 
 int command_animate(int argc, char **argv)
 {
-    struct use use;
-    int result = use_start(argc, argv, help, USE_OUTPUT | USE_MODES | USE_FRAMES, &use);
-    if (result != -1)
-        return result;
-    if (!use.output)
-        result = cli_usage("-o FILE.svg is required");
-    else if (!plot_check_path("-o", use.output))
-        result = CLI_USAGE;
-    else
-        result = run(&use) ? CLI_OK : CLI_FAILED;
-    use_free(&use);
-    return result;
+    return picture_command(argc, argv, &TABLE, run);
 }

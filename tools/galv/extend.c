@@ -1,63 +1,70 @@
+#include "arguments.h"
 #include "cli.h"
 #include "commands.h"
-#include "json.h"
-#include "latent_rows.h"
-#include "use.h"
 
 #include <math.h>
 #include <stdio.h>
 
-static const char help[] =
-    "usage: galv extend MODEL (--random N [--seed S] | --samples FILE) [OPTION]...\n"
-    "\n"
-    "Adds samples to a model without evaluating the old ones again, and says how much that "
-    "changes\n"
-    "the spectrum and turns the modes. The old samples enter through the eigenpairs the model "
-    "keeps;\n"
-    "what that can have cost an eigenvalue is printed.\n"
-    "\n"
-    "  --random N         N more uniform draws within the bounds of the modification\n"
-    "  --seed S           of the stream to draw from (default: the model's); the stream the model "
-    "was\n"
-    "                     last drawn from is continued, any other starts at its first sample\n"
-    "  --samples FILE     parameter vectors instead, CSV with one column per parameter\n"
-    "  --variance V       share of the variance to retain, in (0, 1] (default 0.95)\n"
-    "  --modes M          keep M modes instead\n"
-    "  -o, --output FILE  write the extended model, HDF5\n"
-    "  --threads N        threads (default: as the environment says)\n"
-    "  --json             print one JSON object\n";
+static void check(struct settings_source *source, void *target)
+{
+    const struct arguments *a = target;
+    arguments_either(source, "random", a->random, "samples", a->samples);
+}
+
+static const struct setting ROWS[] = {
+    OPTION_MODEL,
+    OPTION_RANDOM,
+    OPTION("seed", COUNT, seed, .given = offsetof(struct arguments, seed_given),
+           .sentence = "of the stream to draw from, by default the model's; the stream the model "
+                       "was last drawn from is continued, any other starts at its first sample"),
+    OPTION_SAMPLES,
+    OPTION_VARIANCE,
+    OPTION_KEPT,
+    OPTION_WRITTEN,
+    OPTION_JSON,
+};
+
+static const struct settings TABLE = {
+    sizeof ROWS / sizeof *ROWS, ROWS, .check = check,
+    .usage =
+        "usage: galv extend MODEL (--random N [--seed S] | --samples FILE) [OPTION]...\n"
+        "\n"
+        "Adds samples to a model without evaluating the old ones again, and says how much that "
+        "changes\n"
+        "the spectrum and turns the modes. The old samples enter through the eigenpairs the model "
+        "keeps;\n"
+        "what that can have cost an eigenvalue is printed.\n\n"};
 
 /* The new samples, and in *drawn how many the model then has of the stream `seed`. */
-static galv_sampling choose_sampling(const struct use *use, const struct rows *x, size_t *seed,
+static galv_sampling choose_sampling(const struct arguments *a, const struct rows *x, size_t *seed,
                                      size_t *drawn)
 {
-    const struct model_file *file = &use->file;
+    const struct model_file *file = &a->file;
     *seed = file->seed;
     *drawn = file->drawn;
-    if (use->samples)
+    if (a->samples)
         return galv_samples(x->count, x->values);
-    if (use->seed_given && use->seed != file->seed) {
-        *seed = use->seed;
+    if (a->seed_given && a->seed != file->seed) {
+        *seed = a->seed;
         *drawn = 0;
     }
-    galv_sampling sampling = galv_uniform(use->random, *seed);
+    galv_sampling sampling = galv_uniform(a->random, *seed);
     sampling.first = *drawn;
-    *drawn += use->random;
+    *drawn += a->random;
     return sampling;
 }
 
-static bool extend(const struct use *use, galv_sampling sampling, galv_model **grown)
+static bool extend(const struct arguments *a, galv_sampling sampling, galv_model **grown)
 {
-    const struct model_file *file = &use->file;
+    const struct model_file *file = &a->file;
     galv_shape *shape = NULL;
     galv_moment_set set;
     galv_extra extra = model_file_extra(file, &set);
     galv_options options;
     galv_options_init(&options);
     options.extra = extra.count ? &extra : NULL;
-    options.modes = use->modes;
-    if (use->variance > 0)
-        options.variance = use->variance;
+    options.modes = a->modes;
+    options.variance = a->variance;
     bool ok = !shape_definition_create(&file->shape, &shape) &&
               !galv_extend(file->model, shape, sampling, &options, grown);
     if (!ok)
@@ -66,19 +73,15 @@ static bool extend(const struct use *use, galv_sampling sampling, galv_model **g
     return ok;
 }
 
-static int print_json(const galv_model *old, const galv_model *new)
+static int print_json(const galv_model *old, const galv_model *new, const struct warnings *warnings)
 {
-    return json_print(json_pack(
-        "{s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o}", "samples",
-        json_whole(galv_model_samples(new)), "samples_before", json_whole(galv_model_samples(old)),
-        "modes", json_whole(galv_model_modes(new)), "retained",
-        json_number(galv_model_retained(new)), "retained_before",
-        json_number(galv_model_retained(old)), "trace", json_number(galv_model_trace(new)),
-        "trace_before", json_number(galv_model_trace(old)), "subspace_angle",
-        json_number(galv_model_confidence(new).angle), "truncation",
-        json_number(galv_model_truncation(new)), "eigenvalues",
-        json_numbers(galv_model_spectrum(new), galv_model_eigenvalues(new)), "eigenvalues_before",
-        json_numbers(galv_model_spectrum(old), galv_model_eigenvalues(old))));
+    json_t *root = json_model(new);
+    json_object_set_new(root, "samples_before", json_whole(galv_model_samples(old)));
+    json_object_set_new(root, "retained_before", json_number(galv_model_retained(old)));
+    json_object_set_new(root, "trace_before", json_number(galv_model_trace(old)));
+    json_object_set_new(root, "eigenvalues_before",
+                        json_numbers(galv_model_spectrum(old), galv_model_eigenvalues(old)));
+    return json_print(root, warnings);
 }
 
 static int print_text(const galv_model *old, const galv_model *new)
@@ -100,43 +103,41 @@ static int print_text(const galv_model *old, const galv_model *new)
         else
             printf("%4zu %14s %14.6e\n", k + 1, "", now[k]);
     }
-    return fflush(stdout) == EOF ? cli_fail("standard output cannot be written") : CLI_OK;
+    return output_end();
 }
 
-static int run(const struct use *use, const struct rows *x)
+static int run(const struct arguments *a, const struct rows *x)
 {
     size_t seed, drawn;
-    galv_sampling sampling = choose_sampling(use, x, &seed, &drawn);
+    galv_sampling sampling = choose_sampling(a, x, &seed, &drawn);
     galv_model *grown = NULL;
-    if (!extend(use, sampling, &grown))
+    if (!extend(a, sampling, &grown))
         return CLI_FAILED;
-    struct model_file file = use->file;
+    struct model_file file = a->file;
     file.model = grown;
-    file.uniform = use->file.uniform && !use->samples && seed == use->file.seed;
+    file.uniform = a->file.uniform && !a->samples && seed == a->file.seed;
     file.seed = seed;
     file.drawn = drawn;
-    const galv_model *old = use->file.model;
-    int result = use->output && !model_file_write(use->output, &file) ? CLI_FAILED
-                 : use->json                                          ? print_json(old, grown)
-                                                                      : print_text(old, grown);
+    const galv_model *old = a->file.model;
+    int result = a->output && !model_file_write(a->output, &file) ? CLI_FAILED
+                 : a->json ? print_json(old, grown, &a->warnings)
+                           : print_text(old, grown);
     galv_model_free(grown);
     return result;
 }
 
 int command_extend(int argc, char **argv)
 {
-    struct use use;
-    int result = use_start(argc, argv, help, USE_OUTPUT | USE_MODES | USE_SAMPLES, &use);
-    if (result != -1)
-        return result;
+    struct arguments a;
     struct rows x = {.values = NULL};
-    if (!use.random == !use.samples)
-        result = cli_usage("give either --random or --samples");
-    else if (use.samples && !rows_read(use.samples, galv_model_parameters(use.file.model), "x", &x))
-        result = CLI_FAILED;
-    else
-        result = run(&use, &x);
+    int code = arguments_read(argc, argv, &TABLE, &a);
+    if (code != -1)
+        return code;
+    bool ok = !a.samples || rows_read(a.samples, galv_model_parameters(a.file.model), "x", &x);
+    if (ok && a.samples)
+        rows_check_bounds(&x, a.samples, &a.file.shape, &a.warnings);
+    code = ok ? run(&a, &x) : CLI_FAILED;
     rows_free(&x);
-    use_free(&use);
-    return result;
+    arguments_free(&a);
+    return code;
 }

@@ -1,41 +1,34 @@
+#include "arguments.h"
 #include "cli.h"
 #include "commands.h"
-#include "json.h"
-#include "use.h"
 
 #include <math.h>
 #include <stdio.h>
 
-static const char help[] = "usage: galv info MODEL [--json]\n"
-                           "\n"
-                           "Says what a model file holds.\n";
+static const struct setting ROWS[] = {
+    OPTION_MODEL,
+    OPTION_JSON,
+};
 
-static int print_json(const struct model_file *file)
+static const struct settings TABLE = {sizeof ROWS / sizeof *ROWS, ROWS,
+                                      .usage = "usage: galv info MODEL [--json]\n"
+                                               "\n"
+                                               "Says what a model file holds.\n\n"};
+
+static int print_json(const struct arguments *a)
 {
-    const galv_model *m = file->model;
+    const struct model_file *file = &a->file;
     double radius;
     if (galv_latent_ellipsoid(file->model, 0.95, &radius))
         return cli_fail("%s", galv_last_error());
-    json_t *root = json_pack(
-        "{s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:b,s:s,s:s,"
-        "s:s}",
-        "samples", json_whole(galv_model_samples(m)), "elements", json_whole(galv_model_points(m)),
-        "coordinates", json_whole(galv_model_coordinates(m)), "active",
-        json_whole(galv_model_active(m)), "parameters", json_whole(galv_model_parameters(m)),
-        "modes", json_whole(galv_model_modes(m)), "retained", json_number(galv_model_retained(m)),
-        "retained_geometry", json_number(galv_model_retained_geometry(m)), "retained_error",
-        json_number(galv_model_confidence(m).retained_error), "subspace_angle",
-        json_number(galv_model_confidence(m).angle), "trace", json_number(galv_model_trace(m)),
-        "eigenvalues", json_numbers(galv_model_spectrum(m), galv_model_eigenvalues(m)), "mse",
-        json_numbers(galv_model_spectrum(m), galv_model_mse(m)), "latent_lower",
-        json_numbers(galv_model_modes(m), galv_model_lower(m)), "latent_upper",
-        json_numbers(galv_model_modes(m), galv_model_upper(m)), "radius95", json_number(radius),
-        "truncation", json_number(galv_model_truncation(m)), "seed",
-        file->uniform ? json_whole(file->seed) : json_null(), "sections",
-        json_whole(file->sections), "centred", galv_model_centred(m), "method",
-        method_name(galv_model_method(m)), "hull", file->hull, "shape",
-        file->shape.kind == SHAPE_SINES ? "sines" : "lattice");
-    return json_print(root);
+    json_t *root = json_model(file->model);
+    json_object_set_new(root, "radius95", json_number(radius));
+    json_object_set_new(root, "seed", file->uniform ? json_whole(file->seed) : json_null());
+    json_object_set_new(root, "sections", json_whole(file->sections));
+    json_object_set_new(root, "hull", json_string(file->hull));
+    json_object_set_new(root, "shape",
+                        json_string(file->shape.kind == SHAPE_SINES ? "sines" : "lattice"));
+    return json_print(root, &a->warnings);
 }
 
 static int print_text(const struct model_file *file)
@@ -84,16 +77,16 @@ static int print_text(const struct model_file *file)
             printf(" %13.5e %13.5e", lower95[k], upper95[k]);
         putchar('\n');
     }
-    return fflush(stdout) == EOF ? cli_fail("standard output cannot be written") : CLI_OK;
+    return output_end();
 }
 
 int command_info(int argc, char **argv)
 {
-    struct use use;
-    int result = use_start(argc, argv, help, 0, &use);
-    if (result != -1)
-        return result;
-    result = use.json ? print_json(&use.file) : print_text(&use.file);
-    use_free(&use);
-    return result;
+    struct arguments a;
+    int code = arguments_read(argc, argv, &TABLE, &a);
+    if (code != -1)
+        return code;
+    code = a.json ? print_json(&a) : print_text(&a.file);
+    arguments_free(&a);
+    return code;
 }

@@ -1,24 +1,34 @@
+#include "arguments.h"
 #include "cli.h"
 #include "commands.h"
 #include "hull.h"
-#include "latent_rows.h"
-#include "results.h"
-#include "use.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const char help[] =
-    "usage: galv project MODEL (--hull GRID.csv | --parameters LIST|X.csv) [--json]\n"
-    "\n"
-    "Prints the latent coordinates u1, u2, ... of a hull with as many points as the model's, or "
-    "of\n"
-    "parameter vectors, with\n"
-    "\n"
-    "  distance  root mean square distance of the points from the latent space, metres\n"
-    "  radius    sqrt(sum u_k^2 / lambda_k)\n"
-    "  nearest   the same distance to the nearest sample\n";
+static void check(struct settings_source *source, void *target)
+{
+    const struct arguments *a = target;
+    arguments_either(source, "hull", a->hull, "parameters", a->parameters);
+}
+
+static const struct setting ROWS[] = {
+    OPTION_MODEL,
+    OPTION("hull", TEXT, hull, .sentence = "a hull with as many points as the model's"),
+    OPTION_PARAMETERS,
+    OPTION_JSON,
+};
+
+static const struct settings TABLE = {
+    sizeof ROWS / sizeof *ROWS, ROWS, .check = check,
+    .usage = "usage: galv project MODEL (--hull GRID.csv | --parameters LIST|X.csv) [--json]\n"
+             "\n"
+             "Prints the latent coordinates u1, u2, ... of a hull, or of parameter vectors, with\n"
+             "\n"
+             "  distance  root mean square distance of the points from the latent space, metres\n"
+             "  radius    sqrt(sum u_k^2 / lambda_k)\n"
+             "  nearest   the same distance to the nearest sample\n\n"};
 
 /* Latent coordinates and the three figures of one displacement; d: all coordinates, the moments yet
  * to be filled. */
@@ -43,83 +53,72 @@ static bool project(const struct model_file *file, double *d, double *u, double 
     return ok;
 }
 
-static int print(const struct use *use, size_t rows, const double *u, const double *figures)
+static int print(const struct arguments *a, size_t rows, const double *u, const double *figures)
 {
     static const char *const names[] = {"distance", "radius", "nearest"};
-    return results_print(use->json, rows, "u", galv_model_modes(use->file.model), u, 3, names,
-                         figures);
+    const struct table table = {rows, galv_model_modes(a->file.model), 3, "u", names, u, figures};
+    return table_print(&table, a->json, &a->warnings);
 }
 
-static int project_hull(const struct use *use)
+static bool project_hull(const struct arguments *a, double *u, double *figures)
 {
-    const galv_model *model = use->file.model;
+    const galv_model *model = a->file.model;
     const double *parent = galv_model_parent(model);
     size_t points = galv_model_points(model);
     struct hull hull;
-    if (!hull_read(use->hull, use->file.sections, use->file.girth, &hull))
-        return CLI_FAILED;
-    int result = CLI_FAILED;
-    double figures[3], *d = calloc(galv_model_coordinates(model), sizeof *d);
-    double *u = malloc(galv_model_modes(model) * sizeof *u);
-    if (hull.npoints != points)
-        cli_fail("%s: %zu points, expected the %zu of the model", use->hull, hull.npoints, points);
-    else if (!d || !u)
-        cli_fail("out of memory");
-    else {
-        for (size_t i = 0; i < 3 * points; i++)
-            d[i] = hull.xyz[i] - parent[i];
-        if (project(&use->file, d, u, figures))
-            result = print(use, 1, u, figures);
-    }
+    if (!hull_read(a->hull, a->file.sections, a->file.girth, &hull))
+        return false;
+    double *d = calloc(galv_model_coordinates(model), sizeof *d);
+    bool ok = hull.npoints == points || cli_refuse("%s: %zu points, expected the %zu of the model",
+                                                   a->hull, hull.npoints, points);
+    ok = ok && (d || cli_refuse("out of memory"));
+    for (size_t i = 0; ok && i < 3 * points; i++)
+        d[i] = hull.xyz[i] - parent[i];
+    ok = ok && project(&a->file, d, u, figures);
     free(d);
-    free(u);
     hull_free(&hull);
-    return result;
+    return ok;
 }
 
-static int project_parameters(const struct use *use)
+static bool project_parameters(const struct arguments *a, const struct rows *x, double *u,
+                               double *figures)
 {
-    const galv_model *model = use->file.model;
-    size_t n = galv_model_parameters(model), m = galv_model_modes(model);
-    struct rows x;
+    const galv_model *model = a->file.model;
+    size_t m = galv_model_modes(model);
     galv_shape *shape = NULL;
-    if (!rows_read(use->parameters, n, "x", &x))
-        return CLI_FAILED;
-    int result = CLI_FAILED;
     double *d = calloc(galv_model_coordinates(model), sizeof *d);
-    double *u = malloc(x.count * m * sizeof *u), *figures = malloc(3 * x.count * sizeof *figures);
-    bool ok = d && u && figures;
-    if (!ok)
-        cli_fail("out of memory");
-    else if (!(ok = !shape_definition_create(&use->file.shape, &shape)))
-        cli_fail("%s", galv_last_error());
-    for (size_t r = 0; ok && r < x.count; r++) {
-        ok = !galv_shape_displace(shape, galv_model_points(model), galv_model_parent(model),
-                                  x.values + r * n, d);
-        if (!ok)
-            cli_fail("row %zu: %s", r + 1, galv_last_error());
-        ok = ok && project(&use->file, d, u + r * m, figures + 3 * r);
-    }
-    if (ok)
-        result = print(use, x.count, u, figures);
+    bool ok =
+        (d || cli_refuse("out of memory")) &&
+        (!shape_definition_create(&a->file.shape, &shape) || cli_refuse("%s", galv_last_error()));
+    for (size_t r = 0; ok && r < x->count; r++)
+        ok = (!galv_shape_displace(shape, galv_model_points(model), galv_model_parent(model),
+                                   x->values + r * x->width, d) ||
+              cli_refuse("row %zu: %s", r + 1, galv_last_error())) &&
+             project(&a->file, d, u + r * m, figures + 3 * r);
     galv_shape_free(shape);
     free(d);
-    free(u);
-    free(figures);
-    rows_free(&x);
-    return result;
+    return ok;
 }
 
 int command_project(int argc, char **argv)
 {
-    struct use use;
-    int result = use_start(argc, argv, help, USE_HULL | USE_PARAMETERS, &use);
-    if (result != -1)
-        return result;
-    if (!use.hull == !use.parameters)
-        result = cli_usage("give either --hull or --parameters");
-    else
-        result = use.hull ? project_hull(&use) : project_parameters(&use);
-    use_free(&use);
-    return result;
+    struct arguments a;
+    struct rows x = {.count = 1};
+    int code = arguments_read(argc, argv, &TABLE, &a);
+    if (code != -1)
+        return code;
+    const galv_model *model = a.file.model;
+    bool ok = !a.parameters || rows_read(a.parameters, galv_model_parameters(model), "x", &x);
+    if (ok && a.parameters)
+        rows_check_bounds(&x, "--parameters", &a.file.shape, &a.warnings);
+    double *u = ok ? malloc(x.count * galv_model_modes(model) * sizeof *u) : NULL;
+    double *figures = ok ? malloc(3 * x.count * sizeof *figures) : NULL;
+    ok = ok && ((u && figures) || cli_refuse("out of memory")) &&
+         (a.hull ? project_hull(&a, u, figures) : project_parameters(&a, &x, u, figures));
+    code = ok ? print(&a, x.count, u, figures) : CLI_FAILED;
+    free(u);
+    free(figures);
+    rows_free(&x);
+    arguments_free(&a);
+    return code;
 }

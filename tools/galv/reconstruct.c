@@ -1,26 +1,42 @@
+#include "arguments.h"
 #include "cli.h"
 #include "commands.h"
 #include "hull.h"
-#include "latent_rows.h"
-#include "use.h"
 
 #include <stdlib.h>
 
-static const char help[] =
-    "usage: galv reconstruct MODEL (--latent u1,u2,... | --parameters x1,x2,...) [-o GRID.csv]\n"
-    "\n"
-    "Writes the hull of a latent point, or of parameters, as a grid i,j,x,y,z (standard output "
-    "unless\n"
-    "-o is given). Numbers left out are 0; instead of numbers the name of a CSV file with one "
-    "row.\n";
-
-static galv_status displacement(const struct use *use, const double *row, double *d)
+static void check(struct settings_source *source, void *target)
 {
-    const galv_model *model = use->file.model;
-    if (use->latent)
+    const struct arguments *a = target;
+    arguments_either(source, "latent", a->latent, "parameters", a->parameters);
+}
+
+static const struct setting ROWS[] = {
+    OPTION_MODEL,
+    OPTION_LATENT,
+    OPTION_PARAMETERS,
+    OPTION("output", TEXT, output, .letter = 'o',
+           .sentence = "a grid i,j,x,y,z; by default standard output"),
+    OPTION_JSON,
+};
+
+static const struct settings TABLE = {
+    sizeof ROWS / sizeof *ROWS, ROWS, .check = check,
+    .usage = "usage: galv reconstruct MODEL (--latent LIST|U.csv | --parameters LIST|X.csv) [-o "
+             "GRID.csv]\n"
+             "\n"
+             "Writes the hull of a latent point, or of parameters, as a grid. With --json the "
+             "figures of the "
+             "point\n"
+             "are printed, and without -o its points x, y, z.\n\n"};
+
+static galv_status displacement(const struct arguments *a, const double *row, double *d)
+{
+    const galv_model *model = a->file.model;
+    if (a->latent)
         return galv_reconstruct(model, row, d);
     galv_shape *shape = NULL;
-    galv_status status = shape_definition_create(&use->file.shape, &shape);
+    galv_status status = shape_definition_create(&a->file.shape, &shape);
     if (!status)
         status =
             galv_shape_displace(shape, galv_model_points(model), galv_model_parent(model), row, d);
@@ -28,44 +44,60 @@ static galv_status displacement(const struct use *use, const double *row, double
     return status;
 }
 
-static int reconstruct(const struct use *use)
+/* The points, unless they are in a file, with what the latent point is like. */
+static int print_json(struct arguments *a, const double *u, const struct hull *hull,
+                      const double *xyz)
 {
-    const galv_model *model = use->file.model;
-    size_t points = galv_model_points(model);
-    size_t width = use->latent ? galv_model_modes(model) : galv_model_parameters(model);
-    struct rows rows;
-    if (!rows_read(use->latent ? use->latent : use->parameters, width, use->latent ? "u" : "x",
-                   &rows))
-        return CLI_FAILED;
-    int result = CLI_FAILED;
-    double *d = malloc(galv_model_coordinates(model) * sizeof *d);
-    if (rows.count != 1)
-        cli_fail("%zu rows, expected one", rows.count);
-    else if (!d)
-        cli_fail("out of memory");
-    else if (displacement(use, rows.values, d))
-        cli_fail("%s", galv_last_error());
-    else {
-        struct hull hull = {
-            .npoints = points, .sections = use->file.sections, .girth = use->file.girth};
-        for (size_t i = 0; i < 3 * points; i++)
-            d[i] += galv_model_parent(model)[i];
-        if (hull_write(use->output ? use->output : "-", &hull, d))
-            result = CLI_OK;
+    double radius, nearest;
+    json_t *root = json_pack("{s:o,s:o,s:o}", "elements", json_whole(hull->npoints), "sections",
+                             json_whole(hull->sections), "girth", json_whole(hull->girth));
+    if (u && !galv_latent_distance(a->file.model, u, &radius, &nearest)) {
+        json_object_set_new(root, "radius", json_number(radius));
+        json_object_set_new(root, "nearest", json_number(nearest));
     }
-    free(d);
-    rows_free(&rows);
-    return result;
+    if (a->output) {
+        json_object_set_new(root, "file", json_string(a->output));
+        return json_print(root, &a->warnings);
+    }
+    json_t *points = json_array();
+    for (size_t p = 0; p < hull->npoints; p++)
+        json_array_append_new(points, json_numbers(3, xyz + 3 * p));
+    json_object_set_new(root, "points", points);
+    return json_print(root, &a->warnings);
+}
+
+static int write_hull(struct arguments *a, const double *row, double *d)
+{
+    const galv_model *model = a->file.model;
+    const struct hull hull = {
+        .npoints = galv_model_points(model), .sections = a->file.sections, .girth = a->file.girth};
+    if (displacement(a, row, d))
+        return cli_fail("%s", galv_last_error());
+    for (size_t i = 0; i < 3 * hull.npoints; i++)
+        d[i] += galv_model_parent(model)[i];
+    if ((a->output || !a->json) && !hull_write(a->output ? a->output : "-", &hull, d))
+        return CLI_FAILED;
+    return a->json ? print_json(a, a->latent ? row : NULL, &hull, d) : CLI_OK;
 }
 
 int command_reconstruct(int argc, char **argv)
 {
-    struct use use;
-    int result = use_start(argc, argv, help, USE_LATENT | USE_PARAMETERS | USE_OUTPUT, &use);
-    if (result != -1)
-        return result;
-    result = !use.latent == !use.parameters ? cli_usage("give either --latent or --parameters")
-                                            : reconstruct(&use);
-    use_free(&use);
-    return result;
+    struct arguments a;
+    struct rows rows = {.values = NULL};
+    int code = arguments_read(argc, argv, &TABLE, &a);
+    if (code != -1)
+        return code;
+    const galv_model *model = a.file.model;
+    double *d = malloc(galv_model_coordinates(model) * sizeof *d);
+    bool ok = (d || cli_refuse("out of memory")) &&
+              (a.latent ? rows_read(a.latent, galv_model_modes(model), "u", &rows)
+                        : rows_read(a.parameters, galv_model_parameters(model), "x", &rows)) &&
+              (rows.count == 1 || cli_refuse("%zu rows, expected one", rows.count));
+    if (ok && a.parameters)
+        rows_check_bounds(&rows, "--parameters", &a.file.shape, &a.warnings);
+    code = ok ? write_hull(&a, rows.values, d) : CLI_FAILED;
+    free(d);
+    rows_free(&rows);
+    arguments_free(&a);
+    return code;
 }
