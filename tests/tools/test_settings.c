@@ -427,6 +427,32 @@ static void test_restore(void)
     settings_free(&TABLE, &run);
 }
 
+/* A template is a file with what stands in the target. */
+static void test_template(void)
+{
+    struct run run;
+    char *before, *after, *text;
+    size_t length;
+    CU_ASSERT_TRUE(read_text("solver: {tolerance: 0.003, cutoff: none, line_term: no}\n"
+                             "axes: [z, x]\nspeeds: [0.28, 0.41]\n",
+                             &run));
+    before = settings_text(&TABLE, &run);
+    FILE *out = open_memstream(&text, &length);
+    settings_template(&TABLE, &run, out);
+    fclose(out);
+    settings_free(&TABLE, &run);
+    CU_ASSERT_PTR_NOT_NULL(strstr(text, "\nsolver:\n  # relative error asked of the quadrature; "
+                                        "a number between 0 and 0.1, both excluded\n"
+                                        "  tolerance: 0.003\n"));
+    CU_ASSERT_TRUE(read_text(text, &run));
+    after = settings_text(&TABLE, &run);
+    CU_ASSERT_STRING_EQUAL(before, after);
+    free(before);
+    free(after);
+    free(text);
+    settings_free(&TABLE, &run);
+}
+
 /* A byte order mark is no part of the text; a file without end is given up. */
 static void test_bytes(void)
 {
@@ -459,6 +485,7 @@ int main(void)
         {"wrong_options", test_wrong_options},
         {"canonical_text_reads_back", test_canonical_text_reads_back},
         {"restore", test_restore},
+        {"template", test_template},
         {"bytes", test_bytes},
     };
     snprintf(path, sizeof path, "%s/settings_XXXXXX", check_scratch());

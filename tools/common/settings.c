@@ -4,7 +4,6 @@
 #include "settings_internal.h"
 
 #include <errno.h>
-#include <inttypes.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -18,8 +17,7 @@ static const off_t MOST_BYTES = 1 << 30; /* of a file that a setting names */
 static const struct setting_word SWITCH[] = {{"true", 1}, {"false", 0}, {"yes", 1}, {"no", 0},
                                              {"on", 1},   {"off", 0},   {NULL, 0}};
 
-/* The k-th word of a row and what it stands for; NULL after the last. */
-static const char *word_at(const struct setting *row, int k, double *value)
+const char *settings_word(const struct setting *row, int k, double *value)
 {
     const struct setting_word *words = row->type == SETTING_SWITCH ? SWITCH : row->words;
     *value = words ? words[k].value : k;
@@ -29,66 +27,22 @@ static const char *word_at(const struct setting *row, int k, double *value)
 static bool find_word(const struct setting *row, const char *text, double *value)
 {
     const char *word;
-    for (int k = 0; (word = word_at(row, k, value)) != NULL; k++)
+    for (int k = 0; (word = settings_word(row, k, value)) != NULL; k++)
         if (strcmp(word, text) == 0)
             return true;
     return false;
 }
 
-static bool has_range(const struct setting *row)
+bool settings_has_range(const struct setting *row)
 {
     return row->least != 0 || row->most != 0;
 }
 
 static bool inside(const struct setting *row, double value)
 {
-    return !has_range(row) || ((row->open_least ? value > row->least : value >= row->least) &&
-                               (row->open_most ? value < row->most : value <= row->most));
-}
-
-static void print_range(const struct setting *row, FILE *out)
-{
-    const char *least = row->open_least ? ">" : ">=", *most = row->open_most ? "<" : "<=";
-    if (isinf(row->most))
-        fprintf(out, " %s %.15g", least, row->least);
-    else if (row->open_least != row->open_most)
-        fprintf(out, " %s %.15g and %s %.15g", least, row->least, most, row->most);
-    else if (row->open_least)
-        fprintf(out, " between %.15g and %.15g, both excluded", row->least, row->most);
-    else
-        fprintf(out, " from %.15g to %.15g", row->least, row->most);
-}
-
-/* What the value of a row may be; NULL: of a section. */
-static void print_expected(const struct setting *row, FILE *out)
-{
-    static const char *const kinds[][2] = {
-        [SETTING_NUMBER] = {"a number", "numbers"},
-        [SETTING_COUNT] = {"a whole number", "whole numbers"},
-        [SETTING_INTEGER] = {"an integer", "integers"},
-        [SETTING_SWITCH] = {"true or false", "true or false"},
-        [SETTING_CHOICE] = {"", "of "},
-        [SETTING_TEXT] = {"a text", "texts"},
-        [SETTING_FILE] = {"a file", "files"},
-        [SETTING_NUMBERS] = {"numbers", "numbers"},
-        [SETTING_ROWS] = {"mappings in a list", "mappings in a list"}};
-    const char *word;
-    double value;
-    if (!row) {
-        fputs("a mapping of settings", out);
-        return;
-    }
-    if (row->n_most > 1 && row->n_most == row->n_least)
-        fprintf(out, "%zu ", row->n_most);
-    else if (row->n_most > 1)
-        fprintf(out, "%zu to %zu ", row->n_least, row->n_most);
-    fputs(kinds[row->type][row->n_most > 1], out);
-    if (has_range(row))
-        print_range(row, out);
-    for (int k = 0; row->type != SETTING_SWITCH && (word = word_at(row, k, &value)) != NULL; k++) {
-        const char *before = word_at(row, k + 1, &value) ? ", " : " or ";
-        fprintf(out, "%s%s", k == 0 && row->type == SETTING_CHOICE ? "" : before, word);
-    }
+    return !settings_has_range(row) ||
+           ((row->open_least ? value > row->least : value >= row->least) &&
+            (row->open_most ? value < row->most : value <= row->most));
 }
 
 /* Paths of a file are relative to its folder. */
@@ -202,7 +156,7 @@ void settings_refuse(struct settings_source *source, size_t line, const char *ke
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
     if (out) {
-        print_expected(row, out);
+        settings_print_expected(row, out);
         fclose(out);
     }
     settings_add(source, line, key, "%s, expected %s", text, expected);
@@ -284,185 +238,6 @@ void settings_free(const struct settings *table, void *target)
             settings_free(row->table, (char *)*at + i * row->size);
         free(*at);
         *at = NULL;
-    }
-}
-
-/* Entry i of the value at AT, by its word where it has one. */
-static void print_entry(const struct setting *row, const void *at, size_t i, FILE *out)
-{
-    const char *word;
-    double value = NAN, meant;
-    if (row->type >= SETTING_TEXT && row->type <= SETTING_FILE) {
-        fputs(((char *const *)at)[i] ? ((char *const *)at)[i] : "", out);
-        return;
-    }
-    if (row->type == SETTING_NUMBER || row->type == SETTING_NUMBERS)
-        value = row->type == SETTING_NUMBER ? ((const double *)at)[i] : (*(double *const *)at)[i];
-    else if (row->type == SETTING_COUNT)
-        value = (double)((const size_t *)at)[i];
-    else if (row->type != SETTING_SWITCH || row->size == sizeof(int))
-        value = ((const int *)at)[i];
-    else
-        value = ((const bool *)at)[i];
-    for (int k = 0; (word = word_at(row, k, &meant)) != NULL; k++)
-        if (meant == value || (isnan(meant) && isnan(value)))
-            break;
-    if (word)
-        fputs(word, out);
-    else if (row->type == SETTING_COUNT)
-        fprintf(out, "%zu", ((const size_t *)at)[i]);
-    else
-        fprintf(out, "%.15g", value);
-}
-
-char *settings_value(const struct setting *row, const void *target)
-{
-    char *text = NULL;
-    size_t length, n = row->n_most ? row->n_most : row->type < SETTING_ROWS;
-    FILE *out = open_memstream(&text, &length);
-    if (!out)
-        return NULL;
-    if (row->count)
-        n = *(const size_t *)(const void *)((const char *)target + row->count);
-    for (size_t i = 0; i < n && row->type != SETTING_HEADING && row->type != SETTING_ROWS; i++) {
-        fputs(i ? ", " : "", out);
-        print_entry(row, (const char *)target + row->offset, i, out);
-    }
-    fclose(out);
-    return text;
-}
-
-static bool print_file(const char *path, FILE *out)
-{
-    const char *slash = strrchr(path, '/');
-    FILE *file = fopen(path, "rb");
-    if (!file)
-        return false;
-    uint64_t hash = UINT64_C(0xcbf29ce484222325); /* FNV-1a */
-    for (int byte; (byte = getc_unlocked(file)) != EOF;)
-        hash = (hash ^ (unsigned char)byte) * UINT64_C(0x100000001b3);
-    bool ok = !ferror(file);
-    fclose(file);
-    fprintf(out, "%s (%016" PRIx64 ")", slash ? slash + 1 : path, hash);
-    return ok;
-}
-
-char *settings_text(const struct settings *table, const void *target)
-{
-    char *text = NULL;
-    size_t length;
-    FILE *out = open_memstream(&text, &length);
-    bool ok = out != NULL;
-    for (size_t r = 0; ok && r < table->n; r++) {
-        const struct setting *row = &table->rows[r];
-        if (!row->key || row->type == SETTING_ROWS)
-            continue;
-        char *value = settings_value(row, target);
-        ok = value != NULL;
-        fprintf(out, "%s =%s", row->key, ok && *value ? " " : "");
-        for (char *c = value; ok && *c; c++)
-            *c = *c == '\n' ? ' ' : *c;
-        if (ok && *value && row->type == SETTING_FILE)
-            ok = print_file(value, out);
-        else if (ok)
-            fputs(value, out);
-        fputc('\n', out);
-        free(value);
-    }
-    if (out && (fclose(out) != 0 || !ok)) {
-        free(text);
-        return NULL;
-    }
-    return text;
-}
-
-bool settings_restore(const struct settings *table, const char *text, void *target, size_t *line)
-{
-    for (*line = 1; *text; ++*line) {
-        size_t length = strcspn(text, "\n"), key = strcspn(text, " =\n"), r = 0;
-        while (r < table->n && !(table->rows[r].key && strlen(table->rows[r].key) == key &&
-                                 strncmp(table->rows[r].key, text, key) == 0))
-            r++;
-        if (r == table->n || strncmp(text + key, " =", 2) != 0)
-            return false;
-        key += text[key + 2] == ' ' ? 3 : 2;
-        char *value = strndup(text + key, length - key);
-        bool ok =
-            value && (!*value || settings_set_text(NULL, &table->rows[r], 0, "", value, target));
-        free(value);
-        if (!ok)
-            return false;
-        text += length + (text[length] == '\n');
-    }
-    return true;
-}
-
-enum { HELP_COLUMN = 22, HELP_WIDTH = 96 };
-
-/* Words of a text from the column at on, broken at the width and indented. */
-static void wrap(const char *text, size_t at, FILE *out)
-{
-    while (*text) {
-        size_t length = strcspn(text, " ");
-        if (at > HELP_COLUMN && at + 1 + length > HELP_WIDTH) {
-            fprintf(out, "\n%*s", HELP_COLUMN, "");
-            at = HELP_COLUMN;
-        }
-        at += (size_t)fprintf(out, "%s%.*s", at > HELP_COLUMN ? " " : "", (int)length, text);
-        text += length + strspn(text + length, " ");
-    }
-    fputc('\n', out);
-}
-
-/* The sentence of a row, what it may be and what it is. */
-static void print_meaning(const struct setting *row, const void *target, FILE *out)
-{
-    char *value = settings_value(row, target);
-    fputs(row->sentence, out);
-    if (has_range(row) || row->words || row->choice) {
-        fputs("; ", out);
-        print_expected(row, out);
-    }
-    if (value && *value && row->type != SETTING_SWITCH)
-        fprintf(out, " (default %s)", value);
-    free(value);
-}
-
-static void print_help_row(const struct setting *row, const void *target, bool keys, FILE *out)
-{
-    static const char *const names[] = {
-        [SETTING_NUMBER] = "X",        [SETTING_COUNT] = "N",   [SETTING_INTEGER] = "N",
-        [SETTING_CHOICE] = "NAME",     [SETTING_TEXT] = "TEXT", [SETTING_FILE] = "FILE",
-        [SETTING_NUMBERS] = "X,Y,...", [SETTING_ROWS] = ""};
-    char name[80], meaning[800];
-    FILE *text = fmemopen(meaning, sizeof meaning, "w");
-    if (!text)
-        return;
-    const char *kind = names[row->type] ? names[row->type] : "";
-    print_meaning(row, target, text);
-    fclose(text);
-    if (row->n_most > 1 && row->type < SETTING_CHOICE)
-        kind = row->type == SETTING_NUMBER ? "X,Y,..." : "N,M,...";
-    if (keys)
-        snprintf(name, sizeof name, "%s", row->key);
-    else
-        snprintf(name, sizeof name, "%.1s%.1s%s--%s %s", row->letter ? "-" : "", &row->letter,
-                 row->letter ? ", " : "", row->option, kind);
-    if (fprintf(out, "  %-*s", HELP_COLUMN - 3, name) >= HELP_COLUMN)
-        fprintf(out, "\n%*s", HELP_COLUMN - 1, "");
-    fputc(' ', out);
-    wrap(meaning, HELP_COLUMN, out);
-}
-
-void settings_help(const struct settings *table, const void *target, bool keys, FILE *out)
-{
-    for (size_t r = 0; r < table->n; r++) {
-        const struct setting *row = &table->rows[r];
-        if (row->type == SETTING_HEADING && !row->option)
-            fprintf(out, "\n%s\n", row->sentence);
-        else if (keys ? row->key != NULL
-                      : row->option && !(*row->option >= 'A' && *row->option <= 'Z'))
-            print_help_row(row, target, keys, out);
     }
 }
 

@@ -101,6 +101,9 @@ char *settings_text(const struct settings *table, const void *target);
 /* Reads such a text over what stands in the target; a file becomes its name with the digest. False
  * at a line that no row reads, which *line (from 1) tells. */
 bool settings_restore(const struct settings *table, const char *text, void *target, size_t *line);
+/* A YAML file of the rows with a key, each with its sentence in a comment and what stands in the
+ * target. */
+void settings_template(const struct settings *table, const void *target, FILE *out);
 /* The rows of the options, or of the keys, with sentence, range and default. */
 void settings_help(const struct settings *table, const void *target, bool keys, FILE *out);
 

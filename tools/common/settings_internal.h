@@ -35,6 +35,12 @@ bool settings_set(struct settings_source *source, const struct setting *row, siz
 bool settings_set_text(struct settings_source *source, const struct setting *row, size_t line,
                        const char *key, const char *text, void *target);
 
+/* The k-th word of a row and what it stands for; NULL after the last. */
+const char *settings_word(const struct setting *row, int k, double *value);
+bool settings_has_range(const struct setting *row);
+/* What the value of a row may be; NULL: of a section. */
+void settings_print_expected(const struct setting *row, FILE *out);
+
 /* Whether so few letters inserted, dropped or replaced make one word of the other: fewer than
  * *least, which becomes their number. Begin with a third of the letters. */
 bool settings_nearer(const char *a, const char *b, size_t *least);
