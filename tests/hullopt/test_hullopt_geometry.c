@@ -165,14 +165,15 @@ static void test_allowed_designs(void)
     CU_ASSERT_TRUE(outcome_allowed(&speeds, &better, &parent));
     better.cw_speed[0] = NAN;
     CU_ASSERT_FALSE(outcome_allowed(&speeds, &better, &parent));
-    double bound[OUTCOME_MOST], ratio[OUTCOME_MOST];
+    double lower[OUTCOME_MOST], bound[OUTCOME_MOST], ratio[OUTCOME_MOST];
     const struct config both = {.pressure = 1.1, .speeds = 1, .verify_froudes = 2};
     better.cw_speed[0] = 0.25;
     parent.cw_pressure = 2;
     better.cw_pressure = 1;
-    CU_ASSERT_EQUAL_FATAL(outcome_bounds(&both, bound), 3);
+    CU_ASSERT_EQUAL_FATAL(outcome_bounds(&both, lower, bound), 3);
     outcome_ratios(&both, &better, &parent, ratio);
     CU_ASSERT_EQUAL(bound[0], 1.1);
+    CU_ASSERT_TRUE(isinf(lower[0]) && isinf(lower[2]));
     CU_ASSERT_EQUAL(bound[2], 1);
     CU_ASSERT_EQUAL(ratio[0], 0.5);
     CU_ASSERT_EQUAL(ratio[1], 0.25);

@@ -1,5 +1,5 @@
-/* What the configuration asks of a design: limits that are known of a latent point before it is
- * built, and ratios to the parent that only the solve tells. */
+/* What the configuration asks of a design, a row of a table for each constraint: what bounds it,
+ * what is known of it before a design is built, and the figure that decides afterwards. */
 #ifndef HULLOPT_CONSTRAINTS_H
 #define HULLOPT_CONSTRAINTS_H
 
@@ -7,18 +7,19 @@
 
 enum { OUTCOME_MOST = 1 + CONFIG_FROUDE_MOST };
 
-/* The built hull is a spline through the moved points and its nu_s is taken between them: it may be
- * above the limit by this factor. */
-#define ENTRANCE_SLACK 1.05
-
 /* Limits known before a design is built: how many, and their values, <= 0 where allowed. The second
  * is a bayesopt_input_constraint with a struct problem for its user_data. */
 size_t limits_count(const struct config *config);
 int limits_evaluate(void *problem, size_t d, const double *u, double *value);
 
-/* Writes the bound of every ratio in use, the pressure's first, then one for each of the speeds,
- * and returns how many there are. */
-size_t outcome_bounds(const struct config *config, double bound[OUTCOME_MOST]);
+/* Whether a built design keeps what decides before it is solved; else says why not. */
+bool limits_kept(const struct config *config, const struct evaluation *e,
+                 const struct evaluation *parent);
+
+/* What only the solve tells: writes the bounds of every ratio to the parent that is in use, and
+ * returns how many there are. */
+size_t outcome_bounds(const struct config *config, double lower[OUTCOME_MOST],
+                      double upper[OUTCOME_MOST]);
 /* Writes as many ratios of e to the parent. */
 void outcome_ratios(const struct config *config, const struct evaluation *e,
                     const struct evaluation *parent, double ratio[OUTCOME_MOST]);
@@ -28,5 +29,19 @@ bool outcome_allowed(const struct config *config, const struct evaluation *e,
 /* The best of a list whose first is the parent; NULL when that failed too. */
 const struct evaluation *outcome_best(const struct config *config, size_t n,
                                       const struct evaluation *list);
+
+/* A constraint for people. At several speeds the figures are those of the largest ratio. */
+struct constraint_figures {
+    const char *name, *label, *unit;
+    double scale;   /* of before and after in that unit, */
+    int decimals;   /* and how many to show */
+    double allowed; /* as it stands in the configuration; NAN: not constrained */
+    double before, after, ratio;
+    bool kept;
+    char limit[32]; /* "±2 %", "≥ 0.2", "≤ +25 %", "none" */
+};
+size_t constraints_count(void);
+void constraints_figures(const struct config *config, size_t k, const struct evaluation *parent,
+                         const struct evaluation *e, struct constraint_figures *figures);
 
 #endif

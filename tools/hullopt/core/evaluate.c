@@ -1,6 +1,7 @@
 #include "core/evaluate.h"
 
 #include "cli.h"
+#include "core/constraints.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -18,7 +19,9 @@ void evaluation_start(uint64_t id, const char *phase, const double *u, struct ev
                              .volume = NAN,
                              .volume_ratio = NAN,
                              .wetted_area = NAN,
-                             .bound = NAN};
+                             .bound = NAN,
+                             .breadth = NAN,
+                             .nu_s = NAN};
     for (size_t i = 0; i < CONFIG_FROUDE_MOST; i++)
         e->cw_speed[i] = NAN;
 }
@@ -31,11 +34,17 @@ static bool measure(const struct problem *problem, const struct design *design,
     e->volume_ratio = h->volume / nurbs_hull_hydrostatics(problem->parent.hull)->volume;
     e->wetted_area = h->wetted_area;
     e->bound = nurbs_hull_bound(design->hull);
-    double change = e->volume_ratio - 1, most = problem->config->displacement;
-    return isnan(most) || fabs(change) <= most ||
-           core_fail("displacement: displacement differs by %+.2f %% from the parent's, allowed "
-                     "%.2f %%",
-                     100 * change, 100 * most);
+    e->nu_s = design_nu_s(design);
+    e->breadth = 1;
+    return !e->u || galv_limits_breadth(problem->limits, e->u, NULL, &e->breadth) == GALV_OK ||
+           core_fail("grid: %s", galv_last_error());
+}
+
+static bool keep_limits(const struct problem *problem, const struct evaluation *e)
+{
+    struct evaluation parent;
+    evaluation_start(0, NULL, NULL, &parent);
+    return measure(problem, &problem->parent, &parent) && limits_kept(problem->config, e, &parent);
 }
 
 static bool compute_forces(const igabem_solution *solution, igabem_forces *forces)
@@ -86,7 +95,7 @@ static bool solve(const struct problem *problem, const igabem_hull *body, struct
 static void finish(const struct problem *problem, const struct design *design, double start,
                    struct evaluation *e)
 {
-    bool ok = design && measure(problem, design, e);
+    bool ok = design && measure(problem, design, e) && keep_limits(problem, e);
     double built = cli_seconds();
     ok = ok && solve(problem, design->body, e);
     e->geometry_seconds = built - start;

@@ -19,6 +19,8 @@ struct evaluation {
     size_t speeds; /* of cw_speed; 0: not solved at other speeds */
     double cw_speed[CONFIG_FROUDE_MOST];
     double volume, volume_ratio, wetted_area, bound;
+    double breadth; /* least share of its half breadth that a wet point keeps */
+    double nu_s;    /* of the waterline, as design_nu_s() */
     size_t dofs;
     double propose_seconds, geometry_seconds, solve_seconds;
 };

@@ -106,13 +106,7 @@ static bool freeze(struct problem *problem)
         problem->speed[i].froude = config->verify_froude[i];
         ok = igabem_options_freeze(problem->parent.body, &problem->speed[i]) == IGABEM_OK;
     }
-    if (!ok)
-        return core_fail("%s: %s", config->path, igabem_last_error());
-    if (!isnan(config->pressure) && !igabem_formulation_info(problem->solver.formulation)->pressure)
-        return core_fail("%s: constraints.pressure needs a resistance by pressure, which %s has "
-                         "not",
-                         config->path, igabem_formulation_name(problem->solver.formulation));
-    return true;
+    return ok || core_fail("%s: %s", config->path, igabem_last_error());
 }
 
 bool problem_read(const struct config *config, struct problem *problem)

@@ -81,6 +81,7 @@ static const struct member EVALUATION[] = {
     FIGURE(condition),       FIGURE(share_beyond_cutoff),
     FIGURE(volume),          FIGURE(volume_ratio),
     FIGURE(wetted_area),     FIGURE(bound),
+    FIGURE(breadth),         FIGURE(nu_s),
     FIGURE(propose_seconds), FIGURE(geometry_seconds),
     FIGURE(solve_seconds),   MEMBER(evaluation, MEMBER_COUNT, dofs),
 };

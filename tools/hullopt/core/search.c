@@ -11,7 +11,7 @@ bool search_open(struct problem *problem, const char *path, struct record *recor
 {
     const struct config *config = problem->config;
     const galv_model *model = problem->model;
-    double bound[OUTCOME_MOST];
+    double lower[OUTCOME_MOST], upper[OUTCOME_MOST];
     bayesopt_options options;
     bayesopt_options_init(&options);
     options.seed = config->search_seed;
@@ -22,8 +22,9 @@ bool search_open(struct problem *problem, const char *path, struct record *recor
     options.n_input_constraints = limits_count(config);
     options.input_constraint = limits_evaluate;
     options.input_user_data = problem;
-    options.n_constraints = outcome_bounds(config, bound);
-    options.constraint_upper = bound;
+    options.n_constraints = outcome_bounds(config, lower, upper);
+    options.constraint_lower = lower;
+    options.constraint_upper = upper;
     *record = (struct record){0};
     if (bayesopt_create(galv_model_modes(model), galv_model_lower(model), galv_model_upper(model),
                         &options, &record->bo) == BAYESOPT_OK &&

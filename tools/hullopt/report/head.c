@@ -59,18 +59,13 @@ static void cards(FILE *out, const struct results *r)
 {
     char value[80], label[120];
     struct results_times times = results_times(r);
-    double allowed = r->problem->config->displacement;
     fputs("<div class=\"cards\">\n", out);
     snprintf(value, sizeof value, "%+.1f %%", 100 * (r->best->cw / r->baseline->cw - 1));
     card(out, value, "wave resistance coefficient");
     snprintf(value, sizeof value, "%.3f → %.3f", 1e3 * r->baseline->cw, 1e3 * r->best->cw);
     card(out, value, "10³ Cw, original → optimum");
     snprintf(value, sizeof value, "%+.2f %%", 100 * (r->best->volume_ratio - 1));
-    if (isnan(allowed))
-        snprintf(label, sizeof label, "displacement (not constrained)");
-    else
-        snprintf(label, sizeof label, "displacement (allowed ±%g %%)", 100 * allowed);
-    card(out, value, label);
+    card(out, value, "displacement");
     snprintf(value, sizeof value, "%zu of %zu", galv_model_modes(r->problem->model),
              galv_model_parameters(r->problem->model));
     snprintf(label, sizeof label, "latent variables, %.2f %% of the variance",

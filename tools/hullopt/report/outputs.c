@@ -2,6 +2,7 @@
 
 #include "cli.h"
 #include "cli/folder.h"
+#include "core/constraints.h"
 
 #include <errno.h>
 #include <math.h>
@@ -83,17 +84,17 @@ static void print_duration(const char *label, double seconds)
 static bool print_figures(const struct results *r, const char *folder)
 {
     struct results_times times = results_times(r);
-    double allowed = r->problem->config->displacement;
     printf("%-22s%zu of %zu parameters, %.2f %% of the variance\n", "latent variables",
            galv_model_modes(r->problem->model), galv_model_parameters(r->problem->model),
            100 * galv_model_retained(r->problem->model));
     printf("%-22s%.4e\n%-22s%.4e\n%-22s%.1f %%\n", "C_w before", r->baseline->cw, "C_w after",
            r->best->cw, "reduction", 100 * (1 - r->best->cw / r->baseline->cw));
-    printf("%-22s%+.2f %%", "displacement", 100 * (r->best->volume_ratio - 1));
-    if (isnan(allowed))
-        puts(", not constrained");
-    else
-        printf(", allowed %g %%\n", 100 * allowed);
+    for (size_t k = 0; k < constraints_count(); k++) {
+        struct constraint_figures f;
+        constraints_figures(r->problem->config, k, r->baseline, r->best, &f);
+        if (isfinite(f.ratio))
+            printf("%-22s%+.2f %%, limit %s\n", f.name, 100 * (f.ratio - 1), f.limit);
+    }
     printf("%-22s%zu evaluated, %zu failed\n", "designs", r->n - 1, r->failed);
     printf("%-22s%.2f s: geometry %.2f, solve %.2f; proposing %.2f\n", "one evaluation",
            times.evaluation, times.geometry, times.solve, times.propose);

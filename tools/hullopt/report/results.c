@@ -23,16 +23,6 @@ static bool read_evaluations(const struct record *record, struct results *r)
     return r->best || core_fail("the parent is recorded as a failure: %s", r->baseline->reason);
 }
 
-static bool measure_best(struct problem *problem, struct results *r)
-{
-    if (r->best != r->baseline && !problem->best.hull && !problem_set_best(problem, r->best->u))
-        return false;
-    r->nu_s[0] = design_nu_s(&problem->parent);
-    r->nu_s[1] = design_nu_s(problem_best(problem));
-    return galv_limits_breadth(problem->limits, r->best->u, NULL, &r->breadth) == GALV_OK ||
-           core_fail("%s", galv_last_error());
-}
-
 static bool read_parameters(const struct record *record, struct results *r)
 {
     size_t one, n;
@@ -50,11 +40,13 @@ static bool read_parameters(const struct record *record, struct results *r)
 bool results_read(struct problem *problem, const struct record *record, struct results *r)
 {
     *r = (struct results){.problem = problem};
-    bool ok = read_evaluations(record, r) && measure_best(problem, r) &&
-              record_get_text(record, "stop", &r->stop) &&
-              record_verifications(record, &r->rows, &r->n_rows) &&
-              waves_read(record, false, &r->waves[0]) && waves_read(record, true, &r->waves[1]) &&
-              read_parameters(record, r) && record_seconds(record, &r->sessions, &r->seconds);
+    bool ok =
+        read_evaluations(record, r) &&
+        (r->best == r->baseline || problem->best.hull || problem_set_best(problem, r->best->u)) &&
+        record_get_text(record, "stop", &r->stop) &&
+        record_verifications(record, &r->rows, &r->n_rows) &&
+        waves_read(record, false, &r->waves[0]) && waves_read(record, true, &r->waves[1]) &&
+        read_parameters(record, r) && record_seconds(record, &r->sessions, &r->seconds);
     if (!ok) {
         results_free(r);
         return false;

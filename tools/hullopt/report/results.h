@@ -14,8 +14,6 @@ struct results {
     struct evaluation *evaluations;
     size_t n, failed;
     const struct evaluation *baseline, *best; /* of evaluations */
-    double nu_s[2]; /* of the waterlines of parent and best; NAN: cannot be told */
-    double breadth; /* least share of its half breadth that a wet point of the best keeps */
     struct verification *rows;
     size_t n_rows;
     struct verdict verdict;

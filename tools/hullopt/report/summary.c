@@ -50,56 +50,21 @@ static json_t *evaluation(const struct results *r, const struct evaluation *e)
     return o;
 }
 
-/* Of C_w to the parent's over the speeds that were solved with every design; NAN without any. */
-static double largest_speed_ratio(const struct results *r)
-{
-    double largest = NAN;
-    for (size_t i = 0; i < r->best->speeds; i++)
-        largest = fmax(largest, r->best->cw_speed[i] / r->baseline->cw_speed[i]);
-    return largest;
-}
-
 static json_t *constraints(const struct results *r)
 {
-    json_t *o = json_object(), *displacement = json_object();
-    double allowed = r->problem->config->displacement;
-    double change = r->best->volume_ratio - 1;
-    put(displacement, "allowed", allowed);
-    put(displacement, "before", r->baseline->volume);
-    put(displacement, "after", r->best->volume);
-    put(displacement, "change", change);
-    put_flag(displacement, "satisfied", isnan(allowed) || fabs(change) <= allowed);
-    json_object_set_new(o, "displacement", displacement);
-    json_t *breadth = json_object();
-    double least = r->problem->config->breadth;
-    put(breadth, "allowed", least);
-    put(breadth, "before", 1);
-    put(breadth, "after", r->breadth);
-    put_flag(breadth, "satisfied", isnan(least) || r->breadth >= least);
-    json_object_set_new(o, "breadth", breadth);
-    json_t *entrance = json_object();
-    double most = r->problem->config->entrance;
-    put(entrance, "allowed", most);
-    put(entrance, "before", r->nu_s[0]);
-    put(entrance, "after", r->nu_s[1]);
-    put_flag(entrance, "satisfied",
-             isnan(most) || r->nu_s[1] <= ENTRANCE_SLACK * most * r->nu_s[0]);
-    json_object_set_new(o, "entrance", entrance);
-    json_t *pressure = json_object();
-    double ratio = r->best->cw_pressure / r->baseline->cw_pressure;
-    most = r->problem->config->pressure;
-    put(pressure, "allowed", most);
-    put(pressure, "before", r->baseline->cw_pressure);
-    put(pressure, "after", r->best->cw_pressure);
-    put_flag(pressure, "satisfied", isnan(most) || ratio <= most);
-    json_object_set_new(o, "pressure", pressure);
-    json_t *speeds = json_object();
-    most = r->problem->config->speeds;
-    put(speeds, "allowed", most);
-    ratio = largest_speed_ratio(r);
-    put(speeds, "largest_ratio", ratio);
-    put_flag(speeds, "satisfied", isnan(most) || ratio <= most);
-    json_object_set_new(o, "speeds", speeds);
+    json_t *o = json_object();
+    for (size_t k = 0; k < constraints_count(); k++) {
+        struct constraint_figures f;
+        json_t *row = json_object();
+        constraints_figures(r->problem->config, k, r->baseline, r->best, &f);
+        put(row, "allowed", f.allowed);
+        put(row, "before", f.before);
+        put(row, "after", f.after);
+        put(row, "change", f.ratio - 1);
+        put(row, "largest_ratio", f.ratio);
+        put_flag(row, "satisfied", f.kept);
+        json_object_set_new(o, f.name, row);
+    }
     return o;
 }
 

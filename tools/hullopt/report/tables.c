@@ -18,81 +18,20 @@ static void cell(FILE *out, const char *format, double value)
 }
 
 /* The constraints are figures before and after like the others, with their limits beside them. */
-static void displacement_row(FILE *out, const struct results *r)
+static void constraint_row(FILE *out, const struct results *r, size_t k)
 {
-    double allowed = r->problem->config->displacement;
-    double change = r->best->volume_ratio - 1;
-    fputs("<tr class=\"total\"><td>Constraint: displacement</td><td>m³</td>", out);
-    cell(out, "%.5f", r->baseline->volume);
-    cell(out, "%.5f", r->best->volume);
-    cell(out, "%+.2f %%", 100 * change);
-    if (isnan(allowed))
-        fputs("<td>none</td></tr>\n", out);
-    else
-        fprintf(out, "<td>±%g %%, %s</td></tr>\n", 100 * allowed,
-                fabs(change) <= allowed ? "kept" : "violated");
-}
-
-static void breadth_row(FILE *out, const struct results *r)
-{
-    double least = r->problem->config->breadth;
-    fputs("<tr class=\"total\"><td>Constraint: least share of a half breadth kept</td><td></td>"
-          "<td class=\"n\">1</td>",
-          out);
-    cell(out, "%.3f", r->breadth);
-    fputs("<td></td>", out);
-    if (isnan(least))
-        fputs("<td>not across the centre plane</td></tr>\n", out);
-    else
-        fprintf(out, "<td>≥ %g, %s</td></tr>\n", least, r->breadth >= least ? "kept" : "violated");
-}
-
-static void entrance_row(FILE *out, const struct results *r)
-{
-    double most = r->problem->config->entrance;
-    double ratio = r->nu_s[1] / r->nu_s[0];
-    fputs("<tr class=\"total\"><td>Constraint: steepest waterline, |ν<sub>x</sub>|</td><td></td>",
-          out);
-    cell(out, "%.3f", r->nu_s[0]);
-    cell(out, "%.3f", r->nu_s[1]);
-    cell(out, "%+.1f %%", 100 * (ratio - 1));
-    if (isnan(most))
-        fputs("<td>none</td></tr>\n", out);
-    else
-        fprintf(out, "<td>≤ %+g %%, %s</td></tr>\n", 100 * (most - 1),
-                ratio <= ENTRANCE_SLACK * most ? "kept" : "violated");
-}
-
-/* most: largest allowed ratio, NAN: any. */
-static void resistance_row(FILE *out, const char *label, double before, double after, double most)
-{
-    fprintf(out, "<tr class=\"total\"><td>%s</td><td>10⁻³</td>", label);
-    cell(out, "%.4f", 1e3 * before);
-    cell(out, "%.4f", 1e3 * after);
-    cell(out, "%+.1f %%", 100 * (after / before - 1));
-    if (isnan(most))
-        fputs("<td></td></tr>\n", out);
-    else
-        fprintf(out, "<td>≤ %+g %%, %s</td></tr>\n", 100 * (most - 1),
-                after <= most * before ? "kept" : "violated");
-}
-
-/* Only the speeds that were solved with every design; the others are in the verification. */
-static void speed_rows(FILE *out, const struct results *r)
-{
-    char label[80];
-    size_t row = 0;
-    for (size_t i = 0; i < r->best->speeds; i++) {
-        while (row < r->n_rows && r->rows[row].group != GROUP_SPEED)
-            row++;
-        if (row < r->n_rows)
-            snprintf(label, sizeof label, "The same, Kochin function, Fr %g",
-                     r->rows[row++].froude);
-        else
-            snprintf(label, sizeof label, "The same, Kochin function, speed %zu", i + 1);
-        resistance_row(out, label, r->baseline->cw_speed[i], r->best->cw_speed[i],
-                       r->problem->config->speeds);
-    }
+    struct constraint_figures f;
+    char format[16];
+    constraints_figures(r->problem->config, k, r->baseline, r->best, &f);
+    snprintf(format, sizeof format, "%%.%df", f.decimals);
+    fprintf(out, "<tr class=\"total\"><td>Constraint: %s</td><td>%s</td>", f.label, f.unit);
+    cell(out, format, f.scale * f.before);
+    cell(out, format, f.scale * f.after);
+    cell(out, "%+.2f %%", 100 * (f.ratio - 1));
+    fprintf(out, "<td>%s%s</td></tr>\n", f.limit,
+            isnan(f.allowed) ? ""
+            : f.kept         ? ", kept"
+                             : ", violated");
 }
 
 void report_particulars(FILE *out, const struct results *r)
@@ -103,14 +42,14 @@ void report_particulars(FILE *out, const struct results *r)
           "<th class=\"n\">original</th><th class=\"n\">optimum</th><th class=\"n\">change</th>"
           "<th>limit</th></tr></thead><tbody>\n",
           out);
-    resistance_row(out, "Wave resistance coefficient, Kochin function", r->baseline->cw,
-                   r->best->cw, NAN);
-    resistance_row(out, "Wave resistance coefficient, pressure", r->baseline->cw_pressure,
-                   r->best->cw_pressure, r->problem->config->pressure);
-    speed_rows(out, r);
-    displacement_row(out, r);
-    breadth_row(out, r);
-    entrance_row(out, r);
+    fputs("<tr class=\"total\"><td>Wave resistance coefficient, Kochin function</td><td>10⁻³</td>",
+          out);
+    cell(out, "%.4f", 1e3 * r->baseline->cw);
+    cell(out, "%.4f", 1e3 * r->best->cw);
+    cell(out, "%+.1f %%", 100 * (r->best->cw / r->baseline->cw - 1));
+    fputs("<td></td></tr>\n", out);
+    for (size_t k = 0; k < constraints_count(); k++)
+        constraint_row(out, r, k);
     for (size_t i = 0; i < n; i++) {
         fprintf(out, "<tr><td>%s</td><td>%s</td>", list[i].label, list[i].unit);
         for (int k = 0; k < 2; k++)
