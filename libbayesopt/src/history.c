@@ -83,9 +83,14 @@ double history_violation(const struct bayesopt *bo, const struct point *point)
     return sum;
 }
 
+bool point_is_dear(const struct bayesopt *bo, const struct point *point)
+{
+    return point->level + 1 == (int)bo->options.n_levels;
+}
+
 bool point_counts(const struct bayesopt *bo, const struct point *point)
 {
-    return point->state == BAYESOPT_STATE_DONE && point->level + 1 == (int)bo->options.n_levels;
+    return point->state == BAYESOPT_STATE_DONE && point_is_dear(bo, point);
 }
 
 bool point_judged(const struct point *point)

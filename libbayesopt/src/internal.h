@@ -67,6 +67,8 @@ void problem_to_unit(const struct bayesopt *bo, const double *x, double *u);
 void problem_from_unit(const struct bayesopt *bo, const double *u, double *x);
 
 /* history.c */
+/* Of the level whose value is the objective's. */
+bool point_is_dear(const struct bayesopt *bo, const struct point *point);
 /* Done, at the dear level: a value of the objective proper. */
 bool point_counts(const struct bayesopt *bo, const struct point *point);
 /* Told, and its outcome is the point's own. */

@@ -42,7 +42,7 @@ bayesopt_status search_believe_pending(struct bayesopt *bo)
         const struct point *p = &bo->points[i];
         if (p->state != BAYESOPT_STATE_PENDING)
             continue;
-        bool dear = p->level + 1 == (int)bo->options.n_levels;
+        bool dear = point_is_dear(bo, p);
         bayesopt_status status = dear ? BAYESOPT_OK : believe(s->cheap, p->u);
         for (size_t g = 0; g + 1 < s->count && dear && !status; g++)
             status = believe(s->gps[g], p->u);
@@ -52,8 +52,23 @@ bayesopt_status search_believe_pending(struct bayesopt *bo)
     return BAYESOPT_OK;
 }
 
+/* Whether a pending point is believed to satisfy the outcome constraints. */
+static bool believed_feasible(const struct climber *c, const double *u)
+{
+    const struct surrogates *s = &c->bo->surrogates;
+    bool feasible = true;
+    for (size_t k = 0; k + 2 < s->count && feasible; k++) {
+        double mean;
+        feasible =
+            !s->gps[k + 1] || (!bayesopt_gp_predict(s->gps[k + 1], 1, u, &mean, NULL) &&
+                               mean >= c->constraint_lower[k] && mean <= c->constraint_upper[k]);
+    }
+    return feasible;
+}
+
 /* Modelled value to improve on: the best observation, or with noise the best posterior mean at an
- * observed point. */
+ * observed point; and what pending points are believed to bring, since the same improvement is not
+ * there a second time. */
 static bayesopt_status find_incumbent(struct climber *c)
 {
     const struct bayesopt *bo = c->bo;
@@ -61,15 +76,17 @@ static bayesopt_status find_incumbent(struct climber *c)
     bool noisy = bo->options.noise != BAYESOPT_NOISE_DETERMINISTIC;
     c->best = INFINITY;
     for (size_t i = 0; i < bo->n_points; i++) {
+        const struct point *p = &bo->points[i];
+        bool pending = p->state == BAYESOPT_STATE_PENDING && point_is_dear(bo, p);
         double value;
-        if (!point_feasible(bo, &bo->points[i]))
+        if (pending ? !believed_feasible(c, p->u) : !point_feasible(bo, p))
             continue;
-        if (noisy) {
-            bayesopt_status status = surrogates_predict(bo, 1, bo->points[i].u, &value, NULL);
+        if (noisy || pending) {
+            bayesopt_status status = surrogates_predict(bo, 1, p->u, &value, NULL);
             if (status)
                 return status;
         } else {
-            value = bayesopt_gp_to_model(gp, bo->points[i].f);
+            value = bayesopt_gp_to_model(gp, p->f);
         }
         c->best = fmin(c->best, value);
     }
@@ -78,7 +95,8 @@ static bayesopt_status find_incumbent(struct climber *c)
 }
 
 /* With noise the expected improvement is one over what the values at the evaluated points may be.
- * Rows of the objective's data follow the history; what was believed or derived comes after. */
+ * Rows of the objective's data follow the history, then comes what was derived, and last what is
+ * believed of pending points. */
 static bayesopt_status prepare_noisy(struct climber *c)
 {
     const struct bayesopt *bo = c->bo;
@@ -96,11 +114,54 @@ static bayesopt_status prepare_noisy(struct climber *c)
     for (size_t i = 0; i < bo->n_points && row < info.n; i++)
         if (bo->points[i].state == BAYESOPT_STATE_DONE)
             eligible[row++] = point_feasible(bo, &bo->points[i]);
+    row = info.n;
+    for (size_t i = bo->n_points; i-- > 0 && row > 0;)
+        if (bo->points[i].state == BAYESOPT_STATE_PENDING)
+            eligible[--row] = believed_feasible(c, bo->points[i].u);
     uint64_t seed = random_hash(bo->options.seed ^ random_hash(c->search->id + 1));
     if (!status)
         status = noisy_create(gp, eligible, seed, &c->noisy);
     free(eligible);
     return status;
+}
+
+/* Square of the distance to a pending point in units of what is kept. */
+static double square_apart(const struct bayesopt *bo, const double *apart, const struct point *p,
+                           const double *u)
+{
+    double square = 0;
+    for (size_t j = 0; j < bo->d; j++)
+        square += pow((u[j] - p->u[j]) / apart[j], 2);
+    return square;
+}
+
+bool search_is_apart(const struct bayesopt *bo, const double *apart, const double *u)
+{
+    for (size_t i = 0; i < bo->n_points && apart; i++) {
+        const struct point *p = &bo->points[i];
+        if (p->state == BAYESOPT_STATE_PENDING && square_apart(bo, apart, p, u) < 1)
+            return false;
+    }
+    return true;
+}
+
+/* Local penalisation (Gonzalez et al., AISTATS 2016), with 1 - exp(-r^2/2) for the hammer: what
+ * pending points will tell is not asked a second time. The logarithm; adds to the gradient. */
+static double penalty(const struct climber *c, const double *u, double *gradient)
+{
+    const double *apart = c->search->apart;
+    double sum = 0;
+    for (size_t i = 0; i < c->bo->n_points && apart; i++) {
+        const struct point *p = &c->bo->points[i];
+        if (p->state != BAYESOPT_STATE_PENDING)
+            continue;
+        double square = fmax(square_apart(c->bo, apart, p, u), 1e-12);
+        double miss = -expm1(-0.5 * square);
+        sum += log(miss);
+        for (size_t j = 0; j < c->bo->d && gradient; j++)
+            gradient[j] += (1 - miss) / miss * (u[j] - p->u[j]) / (apart[j] * apart[j]);
+    }
+    return sum;
 }
 
 /* Acquisition from means and variances of all models; derivatives in them when wanted. */
@@ -189,6 +250,8 @@ static double climb_value(struct climber *c, const double *u, double *gradient)
             if (s->gps[g])
                 gradient[j] += by_mean[g] * c->dmean[g * d + j] + by_var[g] * c->dvar[g * d + j];
     }
+    if (c->search->apart)
+        value += penalty(c, u, gradient);
     return value;
 }
 
@@ -200,7 +263,8 @@ static double climb_objective(unsigned n, const double *u, double *gradient, voi
         gradient[j] = isfinite(gradient[j]) ? -gradient[j] : 0;
     if (!isfinite(value))
         return 1e30;
-    if (value > c->best_value && (!c->bo->region.m || region_contains(&c->bo->region, u))) {
+    if (value > c->best_value && (!c->bo->region.m || region_contains(&c->bo->region, u)) &&
+        search_is_apart(c->bo, c->search->apart, u)) {
         c->best_value = value;
         memcpy(c->best_u, u, n * sizeof *u);
     }
@@ -361,7 +425,10 @@ static bayesopt_status score(struct climber *c, size_t n, const double *x, doubl
         if (s->gps[g])
             status = bayesopt_gp_predict(s->gps[g], n, x, mean + g * n, var + g * n);
     for (size_t i = 0; i < n && !status; i++)
-        values[i] = combine(c, n, mean + i, var + i, NULL, NULL);
+        values[i] =
+            search_is_apart(c->bo, c->search->apart, x + i * c->bo->d)
+                ? combine(c, n, mean + i, var + i, NULL, NULL) + penalty(c, x + i * c->bo->d, NULL)
+                : -INFINITY;
     free(mean);
     return status;
 }
@@ -466,6 +533,8 @@ bayesopt_status search_run(struct bayesopt *bo, const struct search *search, dou
         status = score(&c, n, x, values);
     if (!status)
         status = ascend_all(&c, n, x, values, u, value);
+    if (!status && isfinite(*value))
+        *value -= penalty(&c, u, NULL);
     if (!status && !isfinite(*value)) {
         /* No start led anywhere: any point of the region in place of none. */
         struct random_stream stream;

@@ -17,7 +17,11 @@ struct search {
     uint64_t id;                 /* names the random stream */
     size_t candidates, starts;   /* uniform candidates, ascents */
     const struct quadratic *quadratic;
+    const double *apart; /* [d] how far from a pending point a proposal lies at least; NULL: any */
 };
+
+/* Whether u keeps that distance in some variable from every pending point. */
+bool search_is_apart(const struct bayesopt *bo, const double *apart, const double *u);
 
 /* Fills u [d] with the best point found and *value with its acquisition (logarithm of the expected
  * improvement in modelled units, or minus the mean). The models must be fitted. */

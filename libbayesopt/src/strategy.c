@@ -18,7 +18,7 @@ struct trust {
     size_t successes, failures;
     /* Local steps that together gained nothing worth naming, and whether they have shown that the
      * basin's bottom is reached. */
-    size_t idle;
+    size_t idle, idle_polished;
     double gained;
     bool settled;
     /* Half the side of the box a quadratic is trusted in, and what either kind of polishing step
@@ -27,6 +27,12 @@ struct trust {
     size_t polished;
 };
 
+/* Proposals by their number (chosen on both tables of tests/bench/bayesopt_regret): one in
+ * global_period looks over the whole box, every other one polishes; in a basin whose bottom is
+ * reached only one in settled_period still does, and in place of the others the box is looked over.
+ */
+static const uint64_t global_period = 8, polish_period = 2, settled_period = 6;
+
 static const double length_start = 0.8, length_least = 0x1p-7, length_most = 1.6;
 static const double radius_start = 0.2, radius_most = 0.5, radius_least = 1e-8;
 /* A gain is worth naming from this share on of the distance between the best tenth of the initial
@@ -34,6 +40,12 @@ static const double radius_start = 0.2, radius_most = 0.5, radius_least = 1e-8;
 static const double least_share = 1e-6;
 /* Polishing steps longer than this have not settled. */
 static const double settled_step = 0.01;
+
+/* A batch (chosen on tests/bench/bayesopt_batches): how far apart its points lie at least, in sides
+ * of the box that is searched per square root of d; how many sizes of the trust region its steps
+ * take by turns; how many of them polish. */
+static const double batch_apart = 0.04;
+enum { BATCH_SIZES = 3, BATCH_POLISHING = 2 };
 
 static size_t patience(const struct bayesopt *bo)
 {
@@ -90,16 +102,19 @@ static void settle(const struct bayesopt *bo, struct trust *t, bool polishing, d
     double least = isfinite(good - t->f) ? least_share * (good - t->f) : 0;
     bool noisy = bo->options.noise != BAYESOPT_NOISE_DETERMINISTIC;
     t->idle++;
+    t->idle_polished += polishing;
     t->gained += gain;
     if (noisy || t->violation > 0 || t->gained > least || (polishing && step > settled_step)) {
         t->settled = false;
-        t->idle = 0;
+        t->idle = t->idle_polished = 0;
         t->gained = 0;
     }
-    if (t->length < length_least || t->idle >= patience(bo)) {
+    /* In a batch few steps are polishing ones, and the others prove nothing. */
+    bool idle = t->idle >= patience(bo) && 5 * t->idle_polished >= t->idle;
+    if (t->length < length_least || idle) {
         t->settled = true;
         t->length = length_start;
-        t->successes = t->failures = t->idle = 0;
+        t->successes = t->failures = t->idle = t->idle_polished = 0;
         t->gained = 0;
     }
 }
@@ -157,19 +172,25 @@ double strategy_trust_length(const struct bayesopt *bo)
     return trust_replay(bo).length;
 }
 
-/* Box around the best point, longer along variables of long length scale. */
-static void trust_box(const struct bayesopt *bo, double length, const double *centre, double *lower,
-                      double *upper)
+/* Sides of a box of geometric mean 1, longer along variables of long length scale. */
+static void relative_sides(const struct bayesopt *bo, double *sides)
 {
-    double scales[BAYESOPT_MOST_VARIABLES], logs = 0;
-    bayesopt_gp_parameters parameters = {.lengthscale = scales};
+    double logs = 0;
+    bayesopt_gp_parameters parameters = {.lengthscale = sides};
     bayesopt_gp_get_parameters(bo->surrogates.gps[0], &parameters);
     for (size_t j = 0; j < bo->d; j++)
-        logs += log(scales[j]) / (double)bo->d;
-    for (size_t j = 0; j < bo->d; j++) {
-        double half = 0.5 * length * scales[j] / exp(logs);
-        lower[j] = fmax(centre[j] - half, 0);
-        upper[j] = fmin(centre[j] + half, 1);
+        logs += log(sides[j]) / (double)bo->d;
+    for (size_t j = 0; j < bo->d; j++)
+        sides[j] /= exp(logs);
+}
+
+/* Box around the best point. */
+static void trust_box(size_t d, double length, const double *sides, const double *centre,
+                      double *lower, double *upper)
+{
+    for (size_t j = 0; j < d; j++) {
+        lower[j] = fmax(centre[j] - 0.5 * length * sides[j], 0);
+        upper[j] = fmin(centre[j] + 0.5 * length * sides[j], 1);
     }
 }
 
@@ -229,16 +250,15 @@ static bayesopt_phase polishing_phase(const struct bayesopt *bo, const struct tr
     return descent ? BAYESOPT_PHASE_DESCENT : BAYESOPT_PHASE_POLISH;
 }
 
-/* A second polishing step before the first is told would go to the same place. */
-static bool being_polished(const struct bayesopt *bo)
+/* Pending points of a kind of step, or of two. */
+static size_t count_pending(const struct bayesopt *bo, bayesopt_phase phase, bayesopt_phase other)
 {
+    size_t count = 0;
     for (size_t i = 0; i < bo->n_points; i++) {
         const struct point *p = &bo->points[i];
-        if (p->state == BAYESOPT_STATE_PENDING &&
-            (p->phase == BAYESOPT_PHASE_POLISH || p->phase == BAYESOPT_PHASE_DESCENT))
-            return true;
+        count += p->state == BAYESOPT_STATE_PENDING && (p->phase == phase || p->phase == other);
     }
-    return false;
+    return count;
 }
 
 /* One global step in eight keeps other basins in view. The others stay near the best point, by
@@ -252,11 +272,14 @@ static bayesopt_phase next_phase(const struct bayesopt *bo, uint64_t id, const s
         return BAYESOPT_PHASE_GLOBAL;
     if (strategy == BAYESOPT_STRATEGY_LOCAL)
         return BAYESOPT_PHASE_LOCAL;
-    bool global = t->settled ? id % 6 == 2 || id % 6 == 4 : id % 8 == 0;
+    bool global =
+        t->settled ? id % settled_period && id % polish_period == 0 : id % global_period == 0;
     if (global)
         return BAYESOPT_PHASE_GLOBAL;
-    return bo->options.polish && id % 2 == 0 && !being_polished(bo) ? polishing_phase(bo, t)
-                                                                    : BAYESOPT_PHASE_LOCAL;
+    bool polishing =
+        bo->options.polish && id % polish_period == 0 &&
+        count_pending(bo, BAYESOPT_PHASE_POLISH, BAYESOPT_PHASE_DESCENT) < BATCH_POLISHING;
+    return polishing ? polishing_phase(bo, t) : BAYESOPT_PHASE_LOCAL;
 }
 
 /* The level that removes more of the variance at u for its cost, as long as the proposals at the
@@ -308,10 +331,49 @@ static bool fit_quadratic(const struct bayesopt *bo, const double *centre, struc
     return ok;
 }
 
+/* Steps of a batch know nothing of each other's outcome, so they take the sizes that the trust
+ * region might have by then. */
+static double batch_length(const struct bayesopt *bo, double length, bayesopt_phase phase)
+{
+    return ldexp(length, -(int)(count_pending(bo, phase, phase) % BATCH_SIZES));
+}
+
+/* One step of the given kind; without apart wherever it leads. */
+static bayesopt_status take_step(struct bayesopt *bo, struct search *search, const struct trust *t,
+                                 bayesopt_phase phase, double *u, double *value)
+{
+    double sides[BAYESOPT_MOST_VARIABLES], apart[BAYESOPT_MOST_VARIABLES];
+    double lower[BAYESOPT_MOST_VARIABLES], upper[BAYESOPT_MOST_VARIABLES], length = 1;
+    bool polishing = phase == BAYESOPT_PHASE_POLISH || phase == BAYESOPT_PHASE_DESCENT;
+    bool pending = history_count_state(bo, BAYESOPT_STATE_PENDING) > 0;
+    search->lower = lower;
+    search->upper = upper;
+    search->goal = phase == BAYESOPT_PHASE_POLISH    ? SEARCH_MEAN
+                   : phase == BAYESOPT_PHASE_DESCENT ? SEARCH_QUADRATIC
+                                                     : SEARCH_IMPROVEMENT;
+    relative_sides(bo, sides);
+    if (phase != BAYESOPT_PHASE_GLOBAL)
+        length =
+            batch_length(bo, phase == BAYESOPT_PHASE_DESCENT ? 2 * t->radius : t->length, phase);
+    for (size_t j = 0; j < bo->d; j++) {
+        lower[j] = 0;
+        upper[j] = 1;
+        apart[j] = batch_apart * sqrt((double)bo->d) * length * sides[j];
+    }
+    if (phase != BAYESOPT_PHASE_GLOBAL)
+        trust_box(bo->d, length, sides, bo->points[t->centre].u, lower, upper);
+    search->apart = pending && !polishing ? apart : NULL;
+    bayesopt_status status = search_run(bo, search, u, value);
+    /* The place of a polishing step may be in good hands already. */
+    if (!status && polishing && !search_is_apart(bo, apart, u))
+        *value = -INFINITY;
+    return status;
+}
+
 bayesopt_status strategy_propose(struct bayesopt *bo, uint64_t id, double *u, bayesopt_phase *phase,
                                  int *level)
 {
-    double lower[BAYESOPT_MOST_VARIABLES], upper[BAYESOPT_MOST_VARIABLES], value;
+    double value;
     struct quadratic quadratic = {0};
     size_t done = 0;
     for (size_t i = 0; i < bo->n_points; i++)
@@ -325,29 +387,17 @@ bayesopt_status strategy_propose(struct bayesopt *bo, uint64_t id, double *u, ba
     if (status)
         return status;
     struct trust trust = trust_replay(bo);
-    struct search search = {.goal = SEARCH_IMPROVEMENT,
-                            .lower = lower,
-                            .upper = upper,
-                            .id = id,
-                            .candidates = 1024,
-                            .starts = 6,
-                            .quadratic = &quadratic};
+    struct search search = {.id = id, .candidates = 1024, .starts = 6, .quadratic = &quadratic};
     *phase = next_phase(bo, id, &trust);
     if (*phase == BAYESOPT_PHASE_DESCENT &&
         !fit_quadratic(bo, bo->points[trust.centre].u, &quadratic))
         *phase = BAYESOPT_PHASE_POLISH;
-    for (size_t j = 0; j < bo->d; j++) {
-        lower[j] = 0;
-        upper[j] = 1;
+    status = take_step(bo, &search, &trust, *phase, u, &value);
+    bool polishing = *phase == BAYESOPT_PHASE_POLISH || *phase == BAYESOPT_PHASE_DESCENT;
+    if (!status && polishing && !isfinite(value)) {
+        *phase = BAYESOPT_PHASE_LOCAL;
+        status = take_step(bo, &search, &trust, *phase, u, &value);
     }
-    if (*phase == BAYESOPT_PHASE_POLISH)
-        search.goal = SEARCH_MEAN;
-    else if (*phase == BAYESOPT_PHASE_DESCENT)
-        search.goal = SEARCH_QUADRATIC;
-    if (*phase != BAYESOPT_PHASE_GLOBAL)
-        trust_box(bo, *phase == BAYESOPT_PHASE_DESCENT ? 2 * trust.radius : trust.length,
-                  bo->points[trust.centre].u, lower, upper);
-    status = search_run(bo, &search, u, &value);
     quadratic_free(&quadratic);
     bo->surrogates.fitted = false;
     if (!status && *phase == BAYESOPT_PHASE_GLOBAL && little_expected(bo, value))
