@@ -95,6 +95,7 @@ static int growth(const igabem_hull *hull, int argc, char **argv)
         igabem_forces forces;
         double spent[CLOCKS];
         igabem_options_init(&options);
+        options.refine = 1;
         options.froude = 0.35;
         options.threads = argc > 1 ? atoi(argv[1]) : 0;
         options.elements_u = meshes[k][0];
@@ -182,6 +183,7 @@ static int tolerance_tables(const igabem_hull *hull)
 {
     igabem_options options;
     igabem_options_init(&options);
+    options.refine = 1;
     options.threads = 1;
     options.froude = 0.35;
     options.elements_u = 32;
@@ -190,6 +192,7 @@ static int tolerance_tables(const igabem_hull *hull)
         return 0;
     igabem_hull *spheroid = make_spheroid();
     igabem_options_init(&options);
+    options.refine = 1;
     options.threads = 1;
     options.froude = 0.6;
     options.elements_u = 14;
@@ -224,6 +227,7 @@ static int froude_table(const igabem_hull *hull)
         double together = INFINITY, apart = INFINITY;
         for (size_t k = 0; k < n; k++) {
             igabem_options_init(&options[k]);
+            options[k].refine = 1;
             options[k].threads = 1;
             options[k].elements_u = 32;
             options[k].elements_v = 10;

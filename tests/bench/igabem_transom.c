@@ -69,6 +69,7 @@ static void fill(const igabem_hull *hull, int level, igabem_options options[SPEE
         const struct setting *setting = &settings[k % SETTINGS];
         igabem_options *o = &options[k];
         igabem_options_init(o);
+        o->refine = 1;
         o->froude = speeds[k / SETTINGS];
         o->formulation = setting->formulation;
         o->cutoff_factor = setting->cutoff_factor;

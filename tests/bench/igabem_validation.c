@@ -125,6 +125,7 @@ igabem_options at_froude(double froude)
 {
     igabem_options options;
     igabem_options_init(&options);
+    options.refine = 1;
     options.froude = froude;
     return options;
 }

@@ -39,6 +39,7 @@ static double resistance(const igabem_hull *hull, int nu, int nv)
     igabem_solution *solution = NULL;
     igabem_forces forces;
     igabem_options_init(&options);
+    options.refine = 1;
     options.froude = 0.35;
     options.elements_u = nu;
     options.elements_v = nv;
@@ -97,6 +98,7 @@ static void test_plateau(void)
     igabem_solution *solutions[N * SPEEDS];
     for (int k = 0; k < N * SPEEDS; k++) {
         igabem_options_init(&options[k]);
+        options[k].refine = 1;
         options[k].froude = froude[k / N];
         options[k].elements_u = 24;
         options[k].elements_v = 8;

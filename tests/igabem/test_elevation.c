@@ -13,6 +13,7 @@ static igabem_solution *solve(const igabem_hull *hull, double froude, int line_t
     igabem_options options;
     igabem_solution *solution = NULL;
     igabem_options_init(&options);
+    options.refine = 1;
     options.froude = froude;
     options.line_term = line_term;
     igabem_status status = igabem_solve(hull, &options, &solution);

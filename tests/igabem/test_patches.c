@@ -111,6 +111,7 @@ static igabem_options setting(double froude, int along, int around)
 {
     igabem_options options;
     igabem_options_init(&options);
+    options.refine = 1;
     options.froude = froude;
     options.elements_u = along;
     options.elements_v = around;

@@ -34,6 +34,7 @@ static igabem_options setting(int nu, int nv)
 {
     igabem_options options;
     igabem_options_init(&options);
+    options.refine = 1;
     options.froude = 0.3;
     options.elements_u = nu;
     options.elements_v = nv;
@@ -64,10 +65,11 @@ static void test_freeze(void)
     CHECK_CLOSE(options.cutoff_angle, 1.2 / info.nu_s, 1e-12);
     CHECK_CLOSE(options.stem_limit, 2.0 * info.nu_s, 1e-12);
     CU_ASSERT_EQUAL(options.formulation, IGABEM_FORMULATION_NEUMANN_KELVIN);
-    CU_ASSERT_EQUAL(options.refine_v, 1);
+    CU_ASSERT_TRUE(options.refine > 1 && options.refine_v > 1);
     CU_ASSERT_EQUAL(options.elements_u, 0);
     CU_ASSERT_EQUAL(options.line_term, 1);
     igabem_options_init(&options);
+    options.refine = 1;
     options.froude = 0.3;
     CU_ASSERT_EQUAL(igabem_options_freeze(spheroid, &options), IGABEM_OK);
     CU_ASSERT(isinf(options.cutoff_angle));
@@ -89,6 +91,7 @@ static void test_irregular_knots(void)
         IGABEM_OK);
     igabem_options options;
     igabem_options_init(&options);
+    options.refine = 1;
     options.froude = 0.3;
     CU_ASSERT_EQUAL(igabem_options_freeze(hull, &options), IGABEM_OK);
     CU_ASSERT_EQUAL(options.elements_u, 5);
@@ -233,6 +236,7 @@ static void test_stern_rule(void)
     for (size_t k = 0; k < sizeof expected / sizeof expected[0]; k++) {
         igabem_options options;
         igabem_options_init(&options);
+        options.refine = 1;
         options.froude = expected[k][0];
         CU_ASSERT_EQUAL(igabem_options_freeze(hull, &options), IGABEM_OK);
         CHECK_RELATIVE(options.stern_length, expected[k][1], 1e-14);
@@ -244,6 +248,7 @@ static void test_stern_rule(void)
     }
     igabem_options body;
     igabem_options_init(&body);
+    body.refine = 1;
     body.kernel = IGABEM_KERNEL_DOUBLE_BODY;
     CU_ASSERT_EQUAL(igabem_options_freeze(hull, &body), IGABEM_OK);
     CU_ASSERT(isfinite(body.stern_length));
@@ -411,6 +416,36 @@ static void refuse(const igabem_hull *hull, const igabem_options *options, const
     CU_ASSERT_PTR_NOT_NULL(strstr(igabem_last_error(), word));
 }
 
+/* Waves too short to be summed in bounded time, and numbers that no setting can mean. */
+static void test_bounds(void)
+{
+    igabem_hull *hull = wigley_hull(0.1, 0.0625, 1, 1);
+    igabem_options good = setting(3, 2), bad = good;
+    bad.froude = 1e9;
+    refuse(hull, &bad, "Froude");
+    bad.froude = 0.01;
+    refuse(hull, &bad, "spectrum_limit 20");
+    bad.spectrum_limit = 1.0;
+    refuse(hull, &bad, "cut-off");
+    bad.froude = 1e-4;
+    refuse(hull, &bad, "higher Froude number");
+    bad = good;
+    bad.spectrum_limit = 1e300;
+    refuse(hull, &bad, "spectrum_limit");
+    bad = good;
+    bad.threads = 1000000;
+    refuse(hull, &bad, "threads");
+    bad.threads = -1;
+    refuse(hull, &bad, "threads");
+    igabem_solution *solution = solve(hull, &good);
+    const double far[1] = {1e300};
+    double h[1][2];
+    CU_ASSERT_EQUAL(igabem_kochin(solution, 1, far, h, NULL), IGABEM_ERROR_ARGUMENT);
+    CU_ASSERT_PTR_NOT_NULL(strstr(igabem_last_error(), "wave angle 1e+300"));
+    igabem_solution_free(solution);
+    igabem_hull_free(hull);
+}
+
 static void test_refusals(void)
 {
     igabem_hull *hull = wigley_hull(0.1, 0.0625, 1, 1);
@@ -420,7 +455,7 @@ static void test_refusals(void)
     bad.froude = -0.3;
     refuse(hull, &bad, "Froude");
     bad = good;
-    bad.refine = 0;
+    bad.refine = -1;
     refuse(hull, &bad, "refine");
     bad = good;
     bad.degree = 12;
@@ -468,6 +503,7 @@ static const struct check_case cases[] = {
     {"frozen options", test_freeze},
     {"hull with irregular knots", test_irregular_knots},
     {"a mesh by rule", test_refine},
+    {"bounds", test_bounds},
     {"several settings at once", test_many},
     {"cost of the quadrature", test_cost},
     {"sensitivity to the cut-off", test_sensitivity},

@@ -37,6 +37,7 @@ static igabem_options plain(igabem_kernel kernel)
 {
     igabem_options options;
     igabem_options_init(&options);
+    options.refine = 1;
     options.kernel = kernel;
     options.tolerance = 1e-6;
     options.waterline_span = 0.0; /* orders want uniform knots */
@@ -181,6 +182,7 @@ static void check_resistance(double diameter, double depth, const struct row *ro
     for (size_t k = 0; k < n; k++) {
         igabem_options options;
         igabem_options_init(&options);
+        options.refine = 1;
         options.froude = rows[k].froude;
         options.elements_u = nu;
         options.elements_v = nv;

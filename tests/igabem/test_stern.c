@@ -71,6 +71,7 @@ static void particulars(void)
         CHECK_RELATIVE(b.length, 1.0, 1e-12);
         igabem_options options;
         igabem_options_init(&options);
+        options.refine = 1;
         options.froude = 0.35;
         CU_ASSERT_EQUAL(igabem_options_freeze(closed, &options), IGABEM_OK);
         CU_ASSERT_EQUAL(options.formulation, IGABEM_FORMULATION_NEUMANN_KELVIN_STERN);
@@ -87,6 +88,7 @@ static igabem_forces solve(int closed, igabem_formulation formulation, int along
     igabem_solution *solution = NULL;
     igabem_forces forces;
     igabem_options_init(&options);
+    options.refine = 1;
     options.froude = 0.35;
     options.elements_u = along;
     options.elements_v = around;

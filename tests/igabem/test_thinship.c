@@ -10,6 +10,7 @@ static double cw_of(const igabem_hull *hull, double froude, igabem_formulation f
     igabem_solution *solution;
     igabem_forces forces = {.cw = NAN};
     igabem_options_init(&options);
+    options.refine = 1;
     options.froude = froude;
     options.formulation = formulation;
     options.spectrum_limit = spectrum_limit;

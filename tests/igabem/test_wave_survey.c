@@ -10,6 +10,7 @@ static igabem_solution *solve(const igabem_hull *hull, double froude,
     igabem_options options;
     igabem_solution *solution = NULL;
     igabem_options_init(&options);
+    options.refine = 1;
     options.froude = froude;
     options.formulation = formulation;
     CU_ASSERT_EQUAL_FATAL(igabem_solve(hull, &options, &solution), IGABEM_OK);
@@ -107,7 +108,7 @@ static void test_cut_of_wigley(void)
     igabem_solution *solution = solve(hull, 0.35, IGABEM_FORMULATION_NEUMANN_KELVIN);
     enum { N = 370 };
     const double step = 0.01, t_c = igabem_solution_options(solution)->cutoff_angle;
-    double t[N], h[2 * N], dcw[N], cw, sum = 0.0;
+    double t[N], h[N][2], dcw[N], cw, sum = 0.0;
     for (int i = 0; i < N; i++)
         t[i] = sinh((i + 0.5) * step);
     CU_ASSERT_EQUAL_FATAL(igabem_kochin(solution, N, t, h, dcw), IGABEM_OK);

@@ -21,6 +21,7 @@ static igabem_options setting(double fr, int nu, int nv)
 {
     igabem_options options;
     igabem_options_init(&options);
+    options.refine = 1;
     options.froude = fr;
     options.elements_u = nu;
     options.elements_v = nv;

@@ -79,7 +79,7 @@ check "the transom chooses its formulation" $?
 for form in fast bulb; do
   "$igabem" check "$hulls/$form.json" --json > "$work/json"
   check "check of $form.json" $?
-  grep -q '"transom": true' "$work/json" && grep -q '"warning": ""' "$work/json"
+  grep -q '"transom": true' "$work/json" && grep -q '"warnings": \[\]' "$work/json"
   check "$form.json has a transom and no warning" $?
 done
 
@@ -156,14 +156,17 @@ echo '{"format":"nurbs","version":1,"unit":"m","patches":[{"degree":[2,2],"size"
   "knots":[[0,0,0,1,1,1],[0,0,0,1,1,1]],"points":[[-0.5,0,0],[-0.5,0,-0.03125],[-0.5,0,-0.0625],
   [0,0.25,0],[0,0.25,-0.03125],[0,0,-0.0625],[0.5,0,0],[0.5,0,-0.03125],[0.5,0,-0.0625]]}]}' > "$work/full.json"
 expect_code 0 "warning.*nu_s > 0.35" "$igabem" solve "$work/full.json" --fr 0.3 --elements 8,3
-expect_code 0 "" "$igabem" solve "$work/full.json" --fr 0.3 --elements 8,3 --formulation hogner
+expect_code 0 "" "$igabem" solve "$work/full.json" --fr 0.3 --elements 16,3 --formulation hogner
 [ ! -s "$work/err" ]
 check "no warning for hogner" $?
 "$igabem" check "$work/full.json" | grep -q "warning: full waterline entrance (nu_s > 0.35)"
 check "check warns of a full bow" $?
-"$igabem" solve "$hulls/wigley.json" --fr 0.3 --elements 8,3 2>&1 | grep -q warning
-[ $? -ne 0 ]
+"$igabem" solve "$hulls/wigley.json" --fr 0.3 --elements 16,4 --json 2> "$work/err" > "$work/json"
+[ ! -s "$work/err" ] && grep -q '"warnings": \[\]' "$work/json"
 check "no warning for the Wigley hull" $?
+expect_code 0 "along a transverse wave.*refine" "$igabem" solve "$hulls/wigley.json" --fr 0.2 --elements 8,3 --json
+grep -q '"[0-9.]* unknowns along a transverse wave' "$work/out"
+check "the same warning in the JSON" $?
 "$igabem" solve "$hulls/wigley.json" --fr 0.3 --elements 16,4 > "$work/out"
 grep -q "C_w at 0.85 t_c 1.2[0-9]*e-03, at 1.15 t_c 1.2" "$work/out"
 check "C_w beside the cut-off with every result" $?

@@ -126,6 +126,7 @@ bool config_read(const char *path, const struct config_overrides *overrides, str
 {
     *config = (struct config){.path = strdup(path)};
     igabem_options_init(&config->solver);
+    config->solver.refine = 1;
     settings_start(&CONFIG, config);
     bool ok = config->path && settings_read(path, &CONFIG, config);
     if (ok && overrides && overrides->initial != SIZE_MAX)

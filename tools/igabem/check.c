@@ -104,7 +104,11 @@ static int print_json(const struct hull_input *input, const igabem_hull_info *in
     json_object_set_new(json, "wetted_area", json_real(info->hydrostatics.wetted_area));
     json_object_set_new(json, "formulation",
                         json_string(igabem_formulation_name(options->formulation)));
-    json_object_set_new(json, "warning", json_string(hull_warning(info)));
+    json_t *warnings = json_array();
+    const char *sentence;
+    for (size_t k = 0; (sentence = igabem_hull_warning(input->hull, k)); k++)
+        json_array_append_new(warnings, json_string(sentence));
+    json_object_set_new(json, "warnings", warnings);
     int failed = json_dumpf(json, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(12)) != 0 ||
                  putchar('\n') == EOF || fflush(stdout) == EOF;
     json_decref(json);
@@ -123,8 +127,9 @@ static int print_text(const struct hull_input *input, const igabem_hull_info *in
         printf("nu_s %.4g: formulation %s, t_c %.4g, stem limit %.4g\n", info->nu_s,
                igabem_formulation_name(options->formulation), options->cutoff_angle,
                options->stem_limit);
-    if (*hull_warning(info))
-        printf("warning: %s\n", hull_warning(info));
+    const char *sentence;
+    for (size_t k = 0; (sentence = igabem_hull_warning(input->hull, k)); k++)
+        printf("warning: %s\n", sentence);
     if (fflush(stdout) == EOF || ferror(stdout))
         return cli_fail("standard output: %s", strerror(errno));
     return CLI_OK;

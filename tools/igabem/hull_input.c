@@ -52,17 +52,3 @@ const char *hull_stern(const igabem_hull_info *info)
            : info->transom == IGABEM_TRANSOM_CLOSED ? "closed transom"
                                                     : "no transom";
 }
-
-const char *hull_warning(const igabem_hull_info *info)
-{
-    if (info->transom == IGABEM_TRANSOM_CLOSED)
-        return "closed transom: without viscosity the flow turns round its corner, C_w means "
-               "nothing; "
-               "leave its patch out for a transom that runs dry";
-    if (info->nu_s > 0.35)
-        return "full waterline entrance (nu_s > 0.35): no cut-off plateau is known for it, do not "
-               "trust C_w";
-    if (info->nu_s > 0.29)
-        return "full waterline entrance (nu_s > 0.29): C_w depends on the cut-off by 5 to 15 %";
-    return "";
-}

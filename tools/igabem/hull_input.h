@@ -37,9 +37,6 @@ void hull_request_init(struct hull_request *request, const char *path);
 int hull_input_read(const struct hull_request *request, struct hull_input *input);
 void hull_input_free(struct hull_input *input);
 
-/* What a user of Neumann-Kelvin results must know about the bow, "" if nothing. */
-const char *hull_warning(const igabem_hull_info *info);
-
 /* "open transom", "closed transom" or "no transom". */
 const char *hull_stern(const igabem_hull_info *info);
 

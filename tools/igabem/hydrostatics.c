@@ -117,7 +117,7 @@ static int parse(int argc, char **argv, struct request *request, bool *done)
     return CLI_OK;
 }
 
-static int print_json(const struct particulars *p)
+static int print_json(const igabem_hull *hull, const struct particulars *p)
 {
     json_t *json = json_object(), *curve = json_array();
     for (size_t i = 0; i < p->count; i++)
@@ -131,6 +131,11 @@ static int print_json(const struct particulars *p)
     }
     json_object_set_new(json, "section_areas", curve);
     json_object_set_new(json, "note", json_string(p->note));
+    json_t *warnings = json_array();
+    const char *sentence;
+    for (size_t k = 0; (sentence = igabem_hull_warning(hull, k)); k++)
+        json_array_append_new(warnings, json_string(sentence));
+    json_object_set_new(json, "warnings", warnings);
     int failed = json_dumpf(json, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(12)) != 0 ||
                  putchar('\n') == EOF || fflush(stdout) == EOF;
     json_decref(json);
@@ -167,8 +172,8 @@ int command_hydrostatics(int argc, char **argv)
     code = particulars_find(&input, request.density, request.kg, (size_t)request.stations,
                             &particulars);
     if (code == CLI_OK)
-        code =
-            request.json ? print_json(&particulars) : print_table(&particulars, request.hull.path);
+        code = request.json ? print_json(input.hull, &particulars)
+                            : print_table(&particulars, request.hull.path);
     particulars_free(&particulars);
     hull_input_free(&input);
     return code;

@@ -3,7 +3,6 @@
 
 #include "cli.h"
 #include "commands.h"
-#include "equilibrium.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -15,43 +14,27 @@ const struct solve_result *solve_run_result(const struct solve_run *run, size_t 
     return &run->results[level * run->cases + c];
 }
 
-double ittc57_friction(double reynolds)
+void solve_run_order(const struct solve_run *run, size_t level, size_t c, double *order,
+                     double *limit)
 {
-    if (!(reynolds > 1000.0))
-        return NAN;
-    double d = log10(reynolds) - 2.0;
-    return 0.075 / (d * d);
+    double h[3], cw[3];
+    *order = *limit = NAN;
+    for (size_t k = 0; k < 3 && level >= 2; k++) {
+        const struct solve_result *result = solve_run_result(run, level - 2 + k, c);
+        h[k] = 1.0 / result->refine;
+        cw[k] = result->forces.cw;
+    }
+    if (level >= 2 && igabem_ladder_order(h, cw, order, limit))
+        *order = *limit = NAN;
 }
 
-/* The exponent p of c_k = c + a h_k^p through three levels: with h = 1/refine,
- * (c1 - c2)/(c2 - c3) = (h1^p - h2^p)/(h2^p - h3^p), which grows with p; bisection. */
-void solve_observed_order(const struct solve_ladder *ladder, size_t upto, double *order,
-                          double *limit)
+void solve_run_total(const struct solve_run *run, const struct solve_result *result,
+                     igabem_total *total)
 {
-    *order = *limit = NAN;
-    if (upto < 3 || upto > ladder->n)
-        return;
-    double c[3], h[3];
-    for (size_t k = 0; k < 3; k++) {
-        const struct solve_result *level = ladder->level[upto - 3 + k];
-        c[k] = level->forces.cw;
-        h[k] = 1.0 / level->refine;
-    }
-    double ratio = (c[0] - c[1]) / (c[1] - c[2]);
-    double low = 0.01, high = 20.0;
-    for (int i = 0; i < 200; i++) {
-        double p = 0.5 * (low + high);
-        double model = (pow(h[0], p) - pow(h[1], p)) / (pow(h[1], p) - pow(h[2], p));
-        if (!(model > ratio))
-            low = p;
-        else
-            high = p;
-    }
-    if (!isfinite(ratio) || low < 0.02 || high > 19.9)
-        return;
-    double p = 0.5 * (low + high);
-    *order = p;
-    *limit = c[2] + (c[2] - c[1]) / (pow(h[1] / h[2], p) - 1.0);
+    const struct solve_request *request = run->request;
+    const igabem_water water = {request->options.density, request->viscosity, request->form_factor};
+    if (igabem_total_resistance(&result->forces, run->info.length, &water, total))
+        *total = (igabem_total){NAN, NAN, NAN, NAN};
 }
 
 enum { MOST_FORMULATIONS = 16 };
@@ -81,18 +64,6 @@ static int report_progress(void *data, double fraction)
     return 0;
 }
 
-/* Parts per span on a level: each level is half as fine again as the one before, at least by one.
- */
-static int refine_on_level(int first, size_t level)
-{
-    int parts = first;
-    for (size_t k = 1; k <= level; k++) {
-        int next = (int)lround(first * pow(1.5, (double)k));
-        parts = next > parts ? next : parts + 1;
-    }
-    return parts;
-}
-
 /* Settings of all cases of one level: Froude numbers slow, formulations fast. */
 static void fill_options(const struct solve_run *run, size_t level, igabem_options *options)
 {
@@ -103,9 +74,7 @@ static void fill_options(const struct solve_run *run, size_t level, igabem_optio
         options[c] = request->options;
         options[c].froude = request->fr[c / n];
         options[c].formulation = list[c % n];
-        options[c].refine = refine_on_level(request->options.refine, level);
-        if (request->options.refine_v > 0)
-            options[c].refine_v = refine_on_level(request->options.refine_v, level);
+        igabem_ladder_level(level, &options[c]);
         if (!isnan(request->x_s))
             options[c].stern_length =
                 fmax(0.0, (request->x_s - run->info.hydrostatics.x_aft) / run->info.length);
@@ -159,6 +128,14 @@ static void refer_to_rest(const struct solve_run *run, struct solve_result *resu
     forces->trim = run->request->hull.trim;
 }
 
+static void keep_warnings(const igabem_solution *solution, struct solve_result *result)
+{
+    const char *sentence;
+    for (size_t k = 0; k + 1 < WARNINGS_MOST; k++)
+        if ((sentence = igabem_solution_warning(solution, &result->forces, k)))
+            result->warning[k] = strdup(sentence);
+}
+
 static int solve_level(struct solve_run *run, size_t level, igabem_options *options,
                        igabem_solution **solutions, struct cli_progress *progress)
 {
@@ -179,6 +156,8 @@ static int solve_level(struct solve_run *run, size_t level, igabem_options *opti
             status = survey(run, solutions[c], result);
         if (run->request->free_to_trim)
             refer_to_rest(run, result);
+        if (!status)
+            keep_warnings(solutions[c], result);
     }
     int code = CLI_OK;
     if (status)
@@ -213,37 +192,71 @@ static int solve_all(struct solve_run *run)
     return code;
 }
 
-/* Of use only to those that know a cut-off. */
-static void warn(const struct solve_run *run)
+static bool is_of_hull(const igabem_hull *hull, const char *sentence)
 {
-    const igabem_options *options = &run->request->options;
-    const char *text = hull_warning(&run->info);
-    if (*text && options->kernel == IGABEM_KERNEL_KELVIN &&
-        (run->request->all || igabem_formulation_info(options->formulation)->kelvin_rows))
-        fprintf(stderr, "igabem: warning: %s: %s\n", run->request->hull.path, text);
+    const char *own;
+    for (size_t k = 0; (own = igabem_hull_warning(hull, k)); k++)
+        if (strcmp(own, sentence) == 0)
+            return true;
+    return false;
 }
 
-/* On a submerged body C_w by Kochin function and by pressure are one number (Lagally): what they
- * differ by is discretisation error. */
-static void warn_of_gap(const struct solve_run *run)
+/* What has been said of an earlier case. */
+static bool was_said(const struct solve_run *run, size_t cases, const char *sentence)
 {
-    for (size_t c = 0; !run->info.surface_piercing && c < run->cases; c++) {
+    for (size_t c = 0; c < cases; c++)
+        for (char *const *w = solve_run_result(run, run->levels - 1, c)->warning; *w; w++)
+            if (strcmp(*w, sentence) == 0)
+                return true;
+    return false;
+}
+
+static void print_warnings(const struct solve_run *run)
+{
+    const char *path = run->request->hull.path;
+    for (size_t c = 0; c < run->cases; c++) {
         const struct solve_result *result = solve_run_result(run, run->levels - 1, c);
-        const igabem_forces *f = &result->forces;
-        double gap = fabs(f->cw_pressure / f->cw - 1.0);
-        if (gap > 0.01)
-            fprintf(stderr,
-                    "igabem: warning: %s: at Fr %g C_w by Kochin function and by pressure differ "
-                    "by %.2g %%, on a submerged body all of it discretisation error: refine\n",
-                    run->request->hull.path, result->options.froude, 100.0 * gap);
+        for (char *const *w = result->warning; *w; w++)
+            if (!is_of_hull(run->input->hull, *w))
+                fprintf(stderr, "igabem: warning: %s: Fr %g, %s: %s\n", path,
+                        result->options.froude,
+                        igabem_formulation_name(result->options.formulation), *w);
+            else if (!was_said(run, c, *w))
+                fprintf(stderr, "igabem: warning: %s: %s\n", path, *w);
     }
 }
 
-/* What a command line without a mesh gets, on the last level but one of a ladder, whose levels are
- * half as fine again each. */
-static size_t wanted_unknowns(int levels)
+/* The hull of *input in the attitude of equilibrium. */
+static int float_freely(struct solve_request *request, struct hull_input *input)
 {
-    return (size_t)(400.0 / pow(1.5, levels > 1 ? 2.0 * (levels - 2) : 0.0));
+    nurbs_hull_options placement;
+    igabem_equilibrium equilibrium;
+    nurbs_hull_options_init(&placement);
+    placement.level = nurbs_hull_level(input->source);
+    placement.simplify = request->hull.simplify;
+    placement.length = request->hull.length;
+    request->options.froude = request->fr[0];
+    igabem_status status = igabem_equilibrium_find(nurbs_hull_full(input->source), &placement,
+                                                   &request->options, &equilibrium, NULL);
+    if (status)
+        return cli_fail("%s: --free-to-trim: %s", request->hull.path, igabem_last_error());
+    igabem_hull_info info;
+    igabem_hull_get_info(input->hull, &info);
+    request->hull.length = info.length;
+    request->hull.sinkage = equilibrium.sinkage;
+    request->hull.trim = equilibrium.trim;
+    request->hull.pivot = equilibrium.pivot;
+    request->hull.quiet = true;
+    hull_input_free(input);
+    return hull_input_read(&request->hull, input);
+}
+
+static void run_free(struct solve_run *run)
+{
+    for (size_t k = 0; run->results && k < run->cases * run->levels; k++)
+        for (char **w = run->results[k].warning; *w; w++)
+            free(*w);
+    free(run->results);
 }
 
 int command_solve(int argc, char **argv)
@@ -262,24 +275,24 @@ int command_solve(int argc, char **argv)
         igabem_hull_get_info(input.hull, &run.info);
         run.area_at_rest = run.info.hydrostatics.wetted_area;
         if (!request.resolution_given)
-            igabem_options_refine(input.hull, wanted_unknowns(request.ladder), &request.options);
+            igabem_options_refine(input.hull, igabem_ladder_unknowns((size_t)request.ladder),
+                                  &request.options);
         if (code == CLI_OK && request.free_to_trim)
-            code = equilibrium_find(&request, &input);
+            code = float_freely(&request, &input);
     }
     if (code == CLI_OK) {
         igabem_formulation list[MOST_FORMULATIONS];
         igabem_hull_get_info(input.hull, &run.info);
         run.cases = request.n_fr * formulations(&request, &run.info, list);
-        warn(&run);
         code = solve_all(&run);
     }
     if (code == CLI_OK)
-        warn_of_gap(&run);
+        print_warnings(&run);
     if (code == CLI_OK && request.plot)
         code = solve_write_plot(&run, request.plot) ? CLI_OK : CLI_FAILED;
     if (code == CLI_OK)
         code = request.json ? solve_print_json(&run) : solve_print_table(&run);
-    free(run.results);
+    run_free(&run);
     hull_input_free(&input);
     solve_request_free(&request);
     return code;

@@ -33,27 +33,16 @@ struct solve_request {
 int solve_parse(int argc, char **argv, struct solve_request *request, bool *done);
 void solve_request_free(struct solve_request *request);
 
+enum { WARNINGS_MOST = 16 };
+
 struct solve_result {
     igabem_options options; /* as used */
     igabem_forces forces;
     int refine;
-    double cw_cut;   /* by a longitudinal wave cut; NAN: not asked for, or none */
-    double share[3]; /* of the fore, middle and aft third in C_w; NAN likewise */
+    double cw_cut;                /* by a longitudinal wave cut; NAN: not asked for, or none */
+    double share[3];              /* of the fore, middle and aft third in C_w; NAN likewise */
+    char *warning[WARNINGS_MOST]; /* owned; NULL ends */
 };
-
-/* One ladder: results of one Froude number and formulation, coarse to fine. */
-struct solve_ladder {
-    size_t n;
-    const struct solve_result *const *level;
-};
-
-/* Observed order of cw over the last three of n levels of mesh width 1/refine, and Richardson's
- * value; NAN where they do not exist. */
-void solve_observed_order(const struct solve_ladder *ladder, size_t upto, double *order,
-                          double *limit);
-
-/* ITTC-57 friction coefficient at a Reynolds number; NAN below 1000. */
-double ittc57_friction(double reynolds);
 
 /* Everything that was computed, results[level][case], cases = Froude numbers x formulations. */
 struct solve_run {
@@ -66,6 +55,15 @@ struct solve_run {
 };
 
 const struct solve_result *solve_run_result(const struct solve_run *run, size_t level, size_t c);
+
+/* Observed order of C_w over the last three levels up to this one, and Richardson's value; NAN
+ * where they do not exist. */
+void solve_run_order(const struct solve_run *run, size_t level, size_t c, double *order,
+                     double *limit);
+
+/* Resistance with friction; NANs without waves. */
+void solve_run_total(const struct solve_run *run, const struct solve_result *result,
+                     igabem_total *total);
 
 /* As --solver takes it. */
 const char *solve_solver_name(igabem_solver solver);

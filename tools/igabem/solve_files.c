@@ -341,7 +341,7 @@ int solve_write_spectrum(const igabem_solution *solution, const char *path)
     double top = asinh(igabem_solution_options(solution)->spectrum_limit);
     for (int i = 0; i < N; i++)
         t[i] = sinh(top * i / (N - 1.0));
-    if (igabem_kochin(solution, N, t, h[0], dcw))
+    if (igabem_kochin(solution, N, t, h, dcw))
         return cli_fail("%s", igabem_last_error());
     struct cli_file file;
     if (!cli_file_open(&file, path))

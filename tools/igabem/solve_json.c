@@ -49,17 +49,22 @@ static json_t *options_json(const struct solve_result *result)
     return json;
 }
 
-/* Total resistance by C_t = (1+k) C_f + C_w. */
-static void add_total(const struct solve_run *run, const igabem_forces *f, json_t *json)
+static void add_total(const struct solve_run *run, const struct solve_result *result, json_t *json)
 {
-    double reynolds = f->speed * run->info.length / run->request->viscosity;
-    double cf = ittc57_friction(reynolds), ct = (1.0 + run->request->form_factor) * cf + f->cw;
-    json_object_set_new(json, "reynolds", real(reynolds));
-    json_object_set_new(json, "cf", real(cf));
-    json_object_set_new(json, "ct", real(ct));
-    json_object_set_new(
-        json, "rt",
-        real(0.5 * run->request->options.density * f->speed * f->speed * f->wetted_area * ct));
+    igabem_total total;
+    solve_run_total(run, result, &total);
+    json_object_set_new(json, "reynolds", real(total.reynolds));
+    json_object_set_new(json, "cf", real(total.cf));
+    json_object_set_new(json, "ct", real(total.ct));
+    json_object_set_new(json, "rt", real(total.rt));
+}
+
+static json_t *warnings_json(const struct solve_result *result)
+{
+    json_t *list = json_array();
+    for (char *const *w = result->warning; *w; w++)
+        json_array_append_new(list, json_string(*w));
+    return list;
 }
 
 static json_t *cost_json(const igabem_cost *cost)
@@ -85,6 +90,7 @@ static json_t *result_json(const struct solve_run *run, const struct solve_resul
     json_object_set_new(json, "k0", real(f->k0));
     json_object_set_new(json, "speed", real(f->speed));
     json_object_set_new(json, "dofs", json_integer((json_int_t)f->dofs));
+    json_object_set_new(json, "unknowns_per_wave", real(f->unknowns_per_wave));
     json_object_set_new(json, "wetted_area", real(f->wetted_area));
     json_object_set_new(json, "volume", real(f->volume));
     json_object_set_new(json, "cw", real(f->cw));
@@ -111,7 +117,8 @@ static json_t *result_json(const struct solve_run *run, const struct solve_resul
     json_object_set_new(json, "cost", cost_json(&f->cost));
     json_object_set_new(json, "seconds", real(f->seconds));
     if (result->options.kernel == IGABEM_KERNEL_KELVIN)
-        add_total(run, f, json);
+        add_total(run, result, json);
+    json_object_set_new(json, "warnings", warnings_json(result));
     json_object_set_new(json, "options", options_json(result));
     return json;
 }
@@ -137,30 +144,27 @@ static json_t *hull_json(const struct solve_run *run)
 
 static json_t *ladder_json(const struct solve_run *run, size_t c)
 {
-    enum { MOST = 16 };
-    const struct solve_result *levels[MOST];
-    struct solve_ladder ladder = {run->levels, levels};
     json_t *list = json_array(), *json = json_object();
     double order = NAN, limit = NAN;
-    for (size_t level = 0; level < run->levels; level++)
-        levels[level] = solve_run_result(run, level, c);
+    const struct solve_result *first = solve_run_result(run, 0, c);
     for (size_t level = 0; level < run->levels; level++) {
-        const igabem_forces *f = &levels[level]->forces;
+        const struct solve_result *result = solve_run_result(run, level, c);
+        const igabem_forces *f = &result->forces;
+        double before = level ? solve_run_result(run, level - 1, c)->forces.cw : NAN;
         json_t *row = json_object();
-        solve_observed_order(&ladder, level + 1, &order, &limit);
-        json_object_set_new(row, "refine", json_integer(levels[level]->refine));
+        solve_run_order(run, level, c, &order, &limit);
+        json_object_set_new(row, "refine", json_integer(result->refine));
         json_object_set_new(row, "dofs", json_integer((json_int_t)f->dofs));
         json_object_set_new(row, "cw", real(f->cw));
-        json_object_set_new(row, "change",
-                            real(level ? f->cw / levels[level - 1]->forces.cw - 1.0 : NAN));
+        json_object_set_new(row, "change", real(f->cw / before - 1.0));
         json_object_set_new(row, "order", real(order));
         json_object_set_new(row, "richardson", real(limit));
         json_object_set_new(row, "seconds", real(f->seconds));
         json_array_append_new(list, row);
     }
-    json_object_set_new(json, "fr", real(levels[0]->options.froude));
+    json_object_set_new(json, "fr", real(first->options.froude));
     json_object_set_new(json, "formulation",
-                        json_string(igabem_formulation_name(levels[0]->options.formulation)));
+                        json_string(igabem_formulation_name(first->options.formulation)));
     json_object_set_new(json, "levels", list);
     return json;
 }

@@ -423,6 +423,8 @@ static int complete(int argc, char **argv, struct solve_request *r)
     if (optind + 1 < argc)
         return cli_usage("more than one HULL: '%s'", argv[optind + 1]);
     r->hull.path = argv[optind];
+    if (r->resolution_given && r->options.refine == 0)
+        r->options.refine = 1;
     if (r->options.kernel == IGABEM_KERNEL_KELVIN && r->n_fr == 0)
         return cli_usage("--fr is missing");
     if (r->all && r->options.kernel != IGABEM_KERNEL_KELVIN)

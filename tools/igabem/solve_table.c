@@ -99,31 +99,28 @@ static void print_result(const struct solve_run *run, const struct solve_result 
         printf("  sinkage %.4g m, trim %.4g deg (bow up positive)\n", f->sinkage,
                f->trim * 57.29577951308232);
     if (result->options.kernel == IGABEM_KERNEL_KELVIN) {
-        double cf = ittc57_friction(f->speed * run->info.length / run->request->viscosity);
-        double ct = (1.0 + run->request->form_factor) * cf + f->cw;
-        printf("  ITTC-57 C_f %.4e, C_t %.4e, R_t %.5g N at U %.4g m/s\n", cf, ct,
-               0.5 * run->request->options.density * f->speed * f->speed * f->wetted_area * ct,
-               f->speed);
+        igabem_total total;
+        solve_run_total(run, result, &total);
+        printf("  ITTC-57 C_f %.4e, C_t %.4e, R_t %.5g N at U %.4g m/s\n", total.cf, total.ct,
+               total.rt, f->speed);
     }
 }
 
 static void print_ladder(const struct solve_run *run, size_t c)
 {
-    enum { MOST = 16 };
-    const struct solve_result *levels[MOST];
-    struct solve_ladder ladder = {run->levels, levels};
-    for (size_t level = 0; level < run->levels; level++)
-        levels[level] = solve_run_result(run, level, c);
+    const struct solve_result *first = solve_run_result(run, 0, c);
     printf("\nrefinement at Fr %g, %s\nrefine unknowns         C_w    change   order  Richardson "
            "seconds\n",
-           levels[0]->options.froude, igabem_formulation_name(levels[0]->options.formulation));
+           first->options.froude, igabem_formulation_name(first->options.formulation));
     for (size_t level = 0; level < run->levels; level++) {
-        const igabem_forces *f = &levels[level]->forces;
+        const struct solve_result *result = solve_run_result(run, level, c);
+        const igabem_forces *f = &result->forces;
         double order, limit;
-        solve_observed_order(&ladder, level + 1, &order, &limit);
-        printf("%6d %8zu %11.5e ", levels[level]->refine, f->dofs, f->cw);
+        solve_run_order(run, level, c, &order, &limit);
+        printf("%6d %8zu %11.5e ", result->refine, f->dofs, f->cw);
         if (level > 0)
-            printf("%8.3f%% ", 100.0 * (f->cw / levels[level - 1]->forces.cw - 1.0));
+            printf("%8.3f%% ",
+                   100.0 * (f->cw / solve_run_result(run, level - 1, c)->forces.cw - 1.0));
         else
             printf("%9s ", "");
         if (isfinite(order))

@@ -61,8 +61,13 @@ typedef struct igabem_hull_info {
     size_t patches;
 } igabem_hull_info;
 
-/** Fills info. */
+/** Fills info; with zeros for a hull that is NULL. */
 IGABEM_API void igabem_hull_get_info(const igabem_hull *hull, igabem_hull_info *info);
+
+/** What its user must know of a hull before any solve, sentence by sentence: a closed transom, a
+ * full waterline entrance, a reference length that is not the hull's. NULL from the first number on
+ * that has none. Borrowed: valid until the next such call of this thread. */
+IGABEM_API const char *igabem_hull_warning(const igabem_hull *hull, size_t number);
 
 #ifdef __cplusplus
 }

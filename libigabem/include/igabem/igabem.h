@@ -5,9 +5,12 @@
 #ifndef IGABEM_IGABEM_H
 #define IGABEM_IGABEM_H
 
+#include <igabem/equilibrium.h>
 #include <igabem/formulation.h>
+#include <igabem/friction.h>
 #include <igabem/hull.h>
 #include <igabem/kelvin.h>
+#include <igabem/ladder.h>
 #include <igabem/residual.h>
 #include <igabem/solve.h>
 #include <igabem/status.h>

@@ -39,13 +39,15 @@ typedef int (*igabem_progress)(void *user_data, double fraction);
 
 /** All settings of a solve. NAN means "by the rule that the field's comment gives". */
 typedef struct igabem_options {
-    double froude;                  /**< U / sqrt(g L), > 0; no default for the Kelvin kernel */
-    double gravity;                 /**< m/s^2; 9.80665 */
-    double density;                 /**< kg/m^3; 1000 */
-    igabem_kernel kernel;           /**< IGABEM_KERNEL_KELVIN */
+    double froude;        /**< U / sqrt(g L), > 0, at most 100; no default for the Kelvin kernel */
+    double gravity;       /**< m/s^2; 9.80665 */
+    double density;       /**< kg/m^3; 1000 */
+    igabem_kernel kernel; /**< IGABEM_KERNEL_KELVIN */
     igabem_formulation formulation; /**< IGABEM_FORMULATION_AUTO */
 
-    int refine;     /**< each knot span split in this many, >= 1; 1 (l of the paper's eq. 14) */
+    int refine;     /**< each knot span split in this many (l of the paper's eq. 14); 0 (default):
+                       1 with refine_v, elements_u or elements_v, else by igabem_options_refine() for
+                       400     unknowns */
     int refine_v;   /**< the same around the hull, refine then being along it: the direction of a
                        patch that gains more in x is along; 0: like refine */
     int elements_u; /**< > 0: the density has its own uniform knots with this many spans along the
@@ -70,21 +72,24 @@ typedef struct igabem_options {
     double stern_length;  /**< x_s - x_aft of neumann-kelvin-stern as a share of the length, 0 to 1;
                              NAN: 0.35 min(1, (Fr/0.35)^2), below Fr 0.35 this is 2.86 U^2/g */
     double stern_blend;   /**< width of the switch there as a share of the length; 0.014 */
-    double spectrum_limit; /**< largest t of the Kochin integral when surface-piercing; 20 */
+    double spectrum_limit; /**< largest t of the Kochin integral when surface-piercing; 20. Waves
+                              whose phase k0 sqrt(1+t^2) (L + t B) along the hull exceeds 3e4 are
+                              refused (B/L 0.1, t 20: below Fr 0.045) */
 
     double tolerance;         /**< relative error asked of the quadrature; 1e-5 */
     igabem_solver solver;     /**< IGABEM_SOLVER_AUTO */
     int sensitivity;          /**< also C_w at 0.85 and 1.15 of the cut-off; 0 */
-    int threads;              /**< 0: as OpenMP decides */
+    int threads;              /**< 0: as OpenMP decides; at most 1024 */
     igabem_progress progress; /**< NULL: none */
     void *progress_user_data;
 } igabem_options;
 
-/** Fills the defaults. */
+/** Fills the defaults; nothing when NULL. */
 IGABEM_API void igabem_options_init(igabem_options *options);
 
-/** Replaces every NAN and IGABEM_FORMULATION_AUTO by what the rules give on this hull. Over an
- * optimisation, freeze once on the parent hull: C_w is then a smooth function of the shape. */
+/** Replaces every NAN, IGABEM_FORMULATION_AUTO and refine 0 by what the rules give on this hull.
+ * Over an optimisation, freeze once on the parent hull: C_w is then a smooth function of the shape.
+ */
 IGABEM_API igabem_status igabem_options_freeze(const igabem_hull *hull, igabem_options *options);
 
 /** Sets refine and refine_v so that the knots of the hull give at least so many unknowns (64 parts
@@ -144,18 +149,30 @@ typedef struct igabem_forces {
                          a solve */
     size_t dofs;      /**< unknowns on the modelled part of the hull */
     igabem_cost cost; /**< of its quadrature */
+    double unknowns_per_wave; /**< along the hull, where they are fewest, in a transverse wave
+                                 length 2 pi/k0 */
 } igabem_forces;
 
 /** Fills forces. */
 IGABEM_API igabem_status igabem_forces_compute(const igabem_solution *solution,
                                                igabem_forces *forces);
 
+/** Why a result may be wrong though the solve succeeded, sentence by sentence: what
+ * igabem_hull_warning() says as far as the formulation feels it, a mesh too coarse for the waves, a
+ * speed or an attitude beyond linear theory, pressure and Kochin function apart, a pressure
+ * resistance below zero.
+ * @param forces of that solution; NULL: what can be said without them
+ * @return NULL from the first number on that has none. Borrowed: valid until the next such call of
+ *         this thread. */
+IGABEM_API const char *igabem_solution_warning(const igabem_solution *solution,
+                                               const igabem_forces *forces, size_t number);
+
 /** Resistance of a hull of libnurbs in one call: igabem_hull_from(), igabem_solve(),
  * igabem_forces_compute(). Over an optimisation freeze the options on the parent first. */
 IGABEM_API igabem_status igabem_solve_hull(const nurbs_hull *hull, const igabem_options *options,
                                            igabem_forces *forces);
 
-/** The settings as they were used: no NAN, no automatic. Borrowed. */
+/** The settings as they were used: no NAN, no automatic. Borrowed; NULL of NULL. */
 IGABEM_API const igabem_options *igabem_solution_options(const igabem_solution *solution);
 
 /** Free-surface elevation at n points (x, y), m: zeta = (U/g) phi_x at z = 0, filtered like the
@@ -173,10 +190,10 @@ IGABEM_API igabem_status igabem_surface_velocity(const igabem_solution *solution
 IGABEM_API igabem_status igabem_source_density(const igabem_solution *solution, size_t patch,
                                                size_t n, const double *uv, double *sigma);
 
-/** Kochin function at n wave angles t = tan(theta): fills h[n][2], real and imaginary part, and, if
- * not NULL, dcw[n] = d C_w / d t. */
+/** Kochin function at n wave angles t = tan(theta), as large as options.spectrum_limit may be:
+ * fills h[n][2], real and imaginary part, and, if not NULL, dcw[n] = d C_w / d t. */
 IGABEM_API igabem_status igabem_kochin(const igabem_solution *solution, size_t n, const double *t,
-                                       double *h, double *dcw);
+                                       double h[][2], double *dcw);
 
 /** Shares of C_w (Kochin) of zones along the hull: zone k has the sources between x[k-1] and x[k],
  * zone 0 those ahead of x[0], zone n those aft of x[n-1] (x[n] decreases from the bow, m). The

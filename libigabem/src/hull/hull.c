@@ -190,6 +190,9 @@ igabem_status igabem_hull_create(const nurbs_surface *const *patches, size_t n, 
     *hull = NULL;
     if (!patches || n == 0)
         return igabem_fail(IGABEM_ERROR_ARGUMENT, "no patches, expected at least one");
+    for (size_t k = 0; k < n; k++)
+        if (!patches[k])
+            return igabem_fail(IGABEM_ERROR_ARGUMENT, "patch %zu is NULL", k);
     if (flags & ~(unsigned)IGABEM_SYMMETRIC)
         return igabem_fail(IGABEM_ERROR_ARGUMENT, "flags %#x, expected 0 or IGABEM_SYMMETRIC",
                            flags);
@@ -220,7 +223,9 @@ void igabem_hull_free(igabem_hull *hull)
 
 igabem_status igabem_hull_set_length(igabem_hull *hull, double length)
 {
-    if (!hull || !(length > 0) || !isfinite(length))
+    if (!hull)
+        return igabem_fail(IGABEM_ERROR_ARGUMENT, "NULL argument of igabem_hull_set_length");
+    if (!(length > 0) || !isfinite(length))
         return igabem_fail(IGABEM_ERROR_ARGUMENT,
                            "reference length %g m, expected a positive number", length);
     hull->length = length;
@@ -229,7 +234,10 @@ igabem_status igabem_hull_set_length(igabem_hull *hull, double length)
 
 void igabem_hull_get_info(const igabem_hull *hull, igabem_hull_info *info)
 {
-    if (!hull || !info)
+    if (!info)
+        return;
+    *info = (igabem_hull_info){0};
+    if (!hull)
         return;
     *info = (igabem_hull_info){.length = hull->length,
                                .hydrostatics = hull->hydrostatics,

@@ -30,7 +30,8 @@ igabem_status igabem_kelvin_wave(size_t n, const double *X, const double *Y, con
 
 void igabem_kelvin_filter_init(igabem_kelvin_filter *filter)
 {
-    *filter = (igabem_kelvin_filter){0, 0};
+    if (filter)
+        *filter = (igabem_kelvin_filter){0, 0};
 }
 
 igabem_status igabem_kelvin_wave_filtered(size_t n, const double *X, const double *Y,

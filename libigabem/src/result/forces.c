@@ -1,5 +1,6 @@
 /* Forces on the hull: by the waves it radiates and by the pressure on it (docs/theory.md, sections
  * 6 and 7). */
+#include "core/constants.h"
 #include "core/error.h"
 #include "result/kochin.h"
 #include "result/radiation.h"
@@ -83,6 +84,19 @@ static igabem_status pressure_forces(const igabem_solution *solution, igabem_for
     return IGABEM_OK;
 }
 
+/* Of the patch with the widest spacing: a mesh is as good as its coarsest part. */
+static double unknowns_per_wave(const igabem_solution *solution)
+{
+    double spacing = 0.0;
+    for (size_t p = 0; p < solution->density->patches; p++) {
+        const struct density_patch *patch = &solution->density->patch[p];
+        int along = patch->hull.along;
+        if (along >= 0)
+            spacing = fmax(spacing, patch->hull.length[along] / (double)patch->size[along]);
+    }
+    return solution->waves && spacing > 0 ? 2.0 * PI / solution->k0 / spacing : NAN;
+}
+
 igabem_status igabem_forces_compute(const igabem_solution *solution, igabem_forces *forces)
 {
     if (!solution || !forces)
@@ -110,7 +124,8 @@ igabem_status igabem_forces_compute(const igabem_solution *solution, igabem_forc
                               .seconds = solution->seconds,
                               .memory = solution->memory,
                               .dofs = solution->density->n,
-                              .cost = solution->cost};
+                              .cost = solution->cost,
+                              .unknowns_per_wave = unknowns_per_wave(solution)};
     struct kochin_resistance far;
     igabem_status status = kochin_resistance(solution, &far);
     if (!status)

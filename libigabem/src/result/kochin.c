@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "result/amplitude.h"
 #include "result/radiation.h"
+#include "solve/resolution.h"
 
 #include <math.h>
 
@@ -52,8 +53,8 @@ igabem_status kochin_resistance(const igabem_solution *solution, struct kochin_r
     return IGABEM_OK;
 }
 
-igabem_status igabem_kochin(const igabem_solution *solution, size_t n, const double *t, double *h,
-                            double *dcw)
+igabem_status igabem_kochin(const igabem_solution *solution, size_t n, const double *t,
+                            double h[][2], double *dcw)
 {
     if (!solution || (n && (!t || !h)))
         return igabem_fail(IGABEM_ERROR_ARGUMENT, "NULL argument of igabem_kochin");
@@ -67,18 +68,22 @@ igabem_status igabem_kochin(const igabem_solution *solution, size_t n, const dou
                                t[i]);
         largest = fmax(largest, fabs(t[i]));
     }
-    struct sources *sources;
+    double length, beam;
+    radiation_extent(solution, &length, &beam);
     igabem_status status =
-        radiation_sources(solution, RADIATION_AS_SOLVED, largest, 0, NULL, &sources);
+        resolution_check_angle(solution->k0, length, beam, largest, "wave angle");
+    if (status)
+        return status;
+    struct sources *sources;
+    status = radiation_sources(solution, RADIATION_AS_SOLVED, largest, 0, NULL, &sources);
     if (status)
         return status;
     double scale = coefficient(solution);
 #pragma omp parallel for schedule(dynamic, 8)
     for (size_t i = 0; i < n; i++) {
-        double *hi = h + 2 * i;
-        amplitude(sources, solution->k0, t[i], hi);
+        amplitude(sources, solution->k0, t[i], h[i]);
         if (dcw)
-            dcw[i] = scale * (hi[0] * hi[0] + hi[1] * hi[1]) * sqrt(1.0 + t[i] * t[i]);
+            dcw[i] = scale * (h[i][0] * h[i][0] + h[i][1] * h[i][1]) * sqrt(1.0 + t[i] * t[i]);
     }
     sources_free(sources);
     return IGABEM_OK;

@@ -30,7 +30,7 @@ static igabem_status wave_angles(double limit, double *t, double *weight)
 igabem_status igabem_wave_residuals(const igabem_solution *solution, double *r)
 {
     enum { ANGLES = PANEL * PANELS };
-    double t[ANGLES], weight[ANGLES], h[2 * ANGLES], density[ANGLES];
+    double t[ANGLES], weight[ANGLES], h[ANGLES][2], density[ANGLES];
     if (!solution || !r)
         return igabem_fail(IGABEM_ERROR_ARGUMENT, "NULL argument of igabem_wave_residuals");
     if (!solution->density->symmetric)
@@ -40,10 +40,10 @@ igabem_status igabem_wave_residuals(const igabem_solution *solution, double *r)
     if (!status)
         status = igabem_kochin(solution, ANGLES, t, h, density);
     for (size_t k = 0; k < ANGLES && !status; k++) {
-        double square = h[2 * k] * h[2 * k] + h[2 * k + 1] * h[2 * k + 1];
+        double square = h[k][0] * h[k][0] + h[k][1] * h[k][1];
         double scale = square > 0 ? sqrt(2.0 * weight[k] * density[k] / square) : 0.0;
-        r[2 * k] = scale * h[2 * k];
-        r[2 * k + 1] = scale * h[2 * k + 1];
+        r[2 * k] = scale * h[k][0];
+        r[2 * k + 1] = scale * h[k][1];
     }
     return status;
 }

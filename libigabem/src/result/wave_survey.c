@@ -196,7 +196,7 @@ static igabem_status check_symmetry(const igabem_solution *solution)
     double h[2 * ANGLES][2], largest = 0.0;
     if (solution->density->symmetric)
         return IGABEM_OK;
-    igabem_status status = igabem_kochin(solution, 2 * ANGLES, angle, h[0], NULL);
+    igabem_status status = igabem_kochin(solution, 2 * ANGLES, angle, h, NULL);
     if (status)
         return status;
     for (int i = 0; i < 2 * ANGLES; i++)

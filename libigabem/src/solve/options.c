@@ -1,21 +1,26 @@
 #include "core/error.h"
 #include "solve/formulation.h"
+#include "solve/resolution.h"
 
 #include <math.h>
 
+static const size_t enough_unknowns = 400;
 static const double irregular_spans = 3.0;
+static const double most_froude = 100.0;
+static const int most_threads = 1024;
 static const double transom_stem_factor = 1.2, stem_factor = 2.0;
 /* x_s - x_aft: this share of the length, at lower speeds 0.45 transverse wave lengths 2 pi/k0. */
 static const double stern_share = 0.35, stern_froude = 0.35;
 
 void igabem_options_init(igabem_options *options)
 {
+    if (!options)
+        return;
     *options = (igabem_options){.froude = NAN,
                                 .gravity = 9.80665,
                                 .density = 1000.0,
                                 .kernel = IGABEM_KERNEL_KELVIN,
                                 .formulation = IGABEM_FORMULATION_AUTO,
-                                .refine = 1,
                                 .elements_u = -1,
                                 .elements_v = -1,
                                 .waterline_span = 0.1,
@@ -57,12 +62,14 @@ static igabem_status check(const igabem_options *options)
             igabem_fail(IGABEM_ERROR_ARGUMENT, "unknown formulation %d", (int)options->formulation);
     if (status == IGABEM_OK && options->kernel == IGABEM_KERNEL_KELVIN)
         status = check_positive("Froude number", options->froude);
+    if (status == IGABEM_OK && options->kernel == IGABEM_KERNEL_KELVIN)
+        status = check_range("Froude number", options->froude, 0.0, most_froude);
     if (status == IGABEM_OK)
         status = check_positive("gravity", options->gravity);
     if (status == IGABEM_OK)
         status = check_positive("density of water", options->density);
     if (status == IGABEM_OK)
-        status = check_range("refine", options->refine, 1, 1000);
+        status = check_range("refine", options->refine, 0, 1000);
     if (status == IGABEM_OK)
         status = check_range("refine_v", options->refine_v, 0, 1000);
     if (status == IGABEM_OK)
@@ -83,6 +90,8 @@ static igabem_status check(const igabem_options *options)
         status = check_positive("spectrum_limit", options->spectrum_limit);
     if (status == IGABEM_OK)
         status = check_positive("cutoff_factor", options->cutoff_factor);
+    if (status == IGABEM_OK)
+        status = check_range("threads", options->threads, 0, most_threads);
     return status;
 }
 
@@ -100,6 +109,14 @@ static void choose_elements(const igabem_hull *hull, igabem_options *options)
             *elements[d] = own ? (int)lround(hull->run_spans[d]) : 0;
 }
 
+static void choose_refine(const igabem_hull *hull, igabem_options *options)
+{
+    if (options->refine_v > 0 || options->elements_u > 0 || options->elements_v > 0)
+        options->refine = 1;
+    else
+        igabem_options_refine(hull, enough_unknowns, options);
+}
+
 /* Waves that the stern rows make and feel among themselves are shorter than the stern part if it is
  * longer than half a wave; kept longer it takes bow waves from rows that could bear them. */
 static double stern_by_rule(const igabem_options *options)
@@ -108,19 +125,8 @@ static double stern_by_rule(const igabem_options *options)
     return ratio < 1.0 ? stern_share * ratio * ratio : stern_share;
 }
 
-igabem_status igabem_options_freeze(const igabem_hull *hull, igabem_options *options)
+static igabem_status choose_cutoff(const igabem_hull *hull, igabem_options *options)
 {
-    igabem_status status = check(options);
-    if (status != IGABEM_OK)
-        return status;
-    if (options->refine_v == 0)
-        options->refine_v = options->refine;
-    choose_elements(hull, options);
-    if (options->formulation == IGABEM_FORMULATION_AUTO)
-        options->formulation = formulation_choose(hull);
-    if (isnan(options->stern_length))
-        options->stern_length = stern_by_rule(options);
-    options->line_term = options->line_term && hull->surface_piercing;
     if (!hull->surface_piercing) {
         if (isnan(options->cutoff_angle))
             options->cutoff_angle = INFINITY;
@@ -146,6 +152,27 @@ igabem_status igabem_options_freeze(const igabem_hull *hull, igabem_options *opt
         return igabem_fail(IGABEM_ERROR_ARGUMENT, "stem_limit is %g, expected > 0 or INFINITY",
                            options->stem_limit);
     return IGABEM_OK;
+}
+
+igabem_status igabem_options_freeze(const igabem_hull *hull, igabem_options *options)
+{
+    if (!hull || !options)
+        return igabem_fail(IGABEM_ERROR_ARGUMENT, "NULL argument of igabem_options_freeze");
+    igabem_status status = check(options);
+    if (status != IGABEM_OK)
+        return status;
+    if (options->refine == 0)
+        choose_refine(hull, options);
+    if (options->refine_v == 0)
+        options->refine_v = options->refine;
+    choose_elements(hull, options);
+    if (options->formulation == IGABEM_FORMULATION_AUTO)
+        options->formulation = formulation_choose(hull);
+    if (isnan(options->stern_length))
+        options->stern_length = stern_by_rule(options);
+    options->line_term = options->line_term && hull->surface_piercing;
+    status = choose_cutoff(hull, options);
+    return status == IGABEM_OK ? resolution_check(hull, options) : status;
 }
 
 /* Unknowns with the spans divided in so many parts along the hull and around it. */
@@ -184,6 +211,8 @@ void igabem_options_refine(const igabem_hull *hull, size_t unknowns, igabem_opti
 {
     enum { MOST_PARTS = 64 };
     int parts[2] = {1, 1};
+    if (!hull || !options)
+        return;
     while (count_unknowns(hull, options->degree, parts) < (double)unknowns &&
            parts[0] < MOST_PARTS && parts[1] < MOST_PARTS)
         parts[!along_is_due(hull, parts)]++;

@@ -54,7 +54,7 @@ double solution_stem_limiter(const igabem_options *options, double nu_x)
 
 const igabem_options *igabem_solution_options(const igabem_solution *solution)
 {
-    return &solution->options;
+    return solution ? &solution->options : NULL;
 }
 
 void igabem_solution_free(igabem_solution *solution)

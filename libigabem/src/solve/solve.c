@@ -26,8 +26,10 @@ static igabem_status solve_groups(size_t n, igabem_solution *const *solutions,
 igabem_status igabem_solve_many(const igabem_hull *hull, size_t n, const igabem_options *options,
                                 igabem_solution **solutions)
 {
-    for (size_t k = 0; k < n; k++)
+    for (size_t k = 0; k < n && solutions; k++)
         solutions[k] = NULL;
+    if (!hull || (n && (!options || !solutions)))
+        return igabem_fail(IGABEM_ERROR_ARGUMENT, "hull, options or solutions is NULL");
     igabem_solution **member = calloc(n + 1, sizeof *member);
     bool *taken = calloc(n + 1, sizeof *taken);
     igabem_status status =
