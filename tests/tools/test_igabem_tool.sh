@@ -37,13 +37,20 @@ expect_value() {
 
 expect_code 2 "command is missing" "$igabem"
 expect_code 2 "unknown command" "$igabem" sail
-expect_code 2 "no HULL" "$igabem" solve --fr 0.3
+expect_code 2 "HULL is missing" "$igabem" solve --fr 0.3
 expect_code 2 "fr is missing" "$igabem" solve "$hulls/wigley.json"
-expect_code 2 "Froude number > 0" "$igabem" solve "$hulls/wigley.json" --fr -0.3
-expect_code 2 "there is no 'panels'" "$igabem" solve "$hulls/wigley.json" --fr 0.3 --formulation panels
+expect_code 2 "numbers > 0" "$igabem" solve "$hulls/wigley.json" --fr -0.3
+expect_code 2 "'panels', expected auto, neumann-kelvin" "$igabem" solve "$hulls/wigley.json" --fr 0.3 --formulation panels
 expect_code 2 "expected an integer" "$igabem" solve "$hulls/wigley.json" --fr 0.3 --refine 0
 expect_code 2 "stern-blend" "$igabem" solve "$hulls/wigley.json" --fr 0.3 --stern-blend -0.1
-expect_code 2 "unknown option" "$igabem" solve "$hulls/wigley.json" --fr 0.3 --speed 3
+expect_code 2 "there is no option '--speed'" "$igabem" solve "$hulls/wigley.json" --fr 0.3 --speed 3
+expect_code 2 "did you mean '--elements'" "$igabem" solve "$hulls/wigley.json" --fr 0.3 --elemnts 8,3
+expect_code 2 "A < B and C < D" "$igabem" solve "$hulls/wigley.json" --fr 0.3 --waves-box 0,-1,0,1
+expect_code 2 "1 to 4096" "$igabem" solve "$hulls/wigley.json" --fr 0.3 --threads 1000000
+expect_code 2 "1 to 4096" "$igabem" solve "$hulls/wigley.json" --fr 0.3 --threads -2
+expect_code 1 "expected at most" "$igabem" solve "$hulls/wigley.json" --fr 0.01
+expect_code 1 "expected at most" "$igabem" solve "$hulls/wigley.json" --fr 0.3 --spectrum-limit 1e300
+expect_code 1 "expected 0 to 100" "$igabem" solve "$hulls/wigley.json" --fr 1e9
 expect_code 1 "no-such-file" "$igabem" solve "$work/no-such-file.json" --fr 0.3
 echo '{"format":"nurbs","version":1,"unit":"m","patches":[{]}' > "$work/bad.json"
 expect_code 1 "bad.json" "$igabem" solve "$work/bad.json" --fr 0.3

@@ -263,9 +263,8 @@ int command_solve(int argc, char **argv)
 {
     struct solve_request request;
     struct hull_input input = {0};
-    bool done;
-    int code = solve_parse(argc, argv, &request, &done);
-    if (code != CLI_OK || done) {
+    int code = solve_parse(argc, argv, &request);
+    if (code >= 0) {
         solve_request_free(&request);
         return code;
     }

@@ -10,8 +10,11 @@
 #include <stdbool.h>
 
 struct solve_request {
+    char *path;
     struct hull_request hull;
     igabem_options options;
+    int formulation; /* as the option has it */
+    int elements[2]; /* likewise: options.elements_u, elements_v */
     double *fr;
     size_t n_fr;
     bool all;              /* every formulation */
@@ -22,15 +25,14 @@ struct solve_request {
     double x_s;            /* metres, NAN: options.stern_length */
     double viscosity;      /* kinematic, m^2/s */
     double form_factor;
-    const char *vtu, *waves, *plot, *pressure_plot, *spectrum;
+    char *vtu, *waves, *plot, *pressure_plot, *spectrum;
     size_t waves_grid[2];
     double waves_box[4]; /* x0, x1, y0, y1 in lengths from the fore end, NAN: default */
     bool json;
 };
 
-/* Reads the command line. CLI_OK, or the exit code after a message; *done is set when --help or
- * --version has been served. */
-int solve_parse(int argc, char **argv, struct solve_request *request, bool *done);
+/* Reads the command line. -1 to go on, else an exit code. */
+int solve_parse(int argc, char **argv, struct solve_request *request);
 void solve_request_free(struct solve_request *request);
 
 enum { WARNINGS_MOST = 16 };
