@@ -188,6 +188,10 @@ static bayesopt_status give(struct bayesopt *bo, size_t i, size_t n, double *x, 
 
 bayesopt_status bayesopt_ask_levels(bayesopt *bo, size_t n, double *x, uint64_t *ids, int *levels)
 {
+    NEED(bo);
+    NEED(x);
+    NEED(ids);
+    NEED_MOST(n, BAYESOPT_MOST_POINTS);
     if (!n)
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "asked for no points");
     bayesopt_status status = store_begin(bo);

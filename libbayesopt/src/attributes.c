@@ -30,6 +30,7 @@ const char *bayesopt_attribute_text(size_t n, const bayesopt_attribute *attribut
 
 bayesopt_status attributes_check(size_t n, const bayesopt_attribute *attributes)
 {
+    NEED_MOST(n, BAYESOPT_MOST_POINTS);
     if (n && !attributes)
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "%zu attributes, but their list is NULL", n);
     for (size_t i = 0; i < n; i++) {

@@ -57,6 +57,7 @@ static double *copy(const double *from, size_t n, double otherwise)
 bayesopt_status bayesopt_create(size_t d, const double *lower, const double *upper,
                                 const bayesopt_options *options, bayesopt **out)
 {
+    NEED(out);
     bayesopt_options defaults;
     if (!options) {
         bayesopt_options_init(&defaults);
@@ -126,6 +127,7 @@ void bayesopt_free(bayesopt *bo)
 
 bayesopt_status bayesopt_set_budget(bayesopt *bo, size_t max_evaluations)
 {
+    NEED(bo);
     size_t before = bo->options.max_evaluations;
     bayesopt_status status = store_begin(bo);
     if (status)

@@ -2,6 +2,9 @@
 #include "design_internal.h"
 #include "error.h"
 
+/* Annealing moves: more would take hours. */
+enum { MOST_SWAPS = 1000000000 };
+
 const char *bayesopt_design_name(bayesopt_design_kind kind)
 {
     static const char *const names[] = {"uniform", "lhs", "annealed-lhs", "sobol", "stlbo"};
@@ -10,6 +13,8 @@ const char *bayesopt_design_name(bayesopt_design_kind kind)
 
 void bayesopt_design_options_init(bayesopt_design_options *options)
 {
+    if (!options)
+        return;
     *options = (bayesopt_design_options){.seed = 1, .power = 2, .latin_weight = 1};
 }
 
@@ -26,6 +31,9 @@ static bayesopt_status check(bayesopt_design_kind kind, size_t n, size_t d,
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
                              "design: power %g, Latin weight %g: expected positive, not negative",
                              o->power, o->latin_weight);
+    if (o->swaps > MOST_SWAPS)
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "design: %zu swaps, expected at most %d",
+                             o->swaps, MOST_SWAPS);
     if (o->n_constraints > BAYESOPT_MOST_CONSTRAINTS || o->n_existing > BAYESOPT_MOST_POINTS)
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
                              "design: %zu constraints and %zu existing points, expected at most %d "
@@ -50,6 +58,7 @@ static bayesopt_status check(bayesopt_design_kind kind, size_t n, size_t d,
 bayesopt_status bayesopt_design(bayesopt_design_kind kind, size_t n, size_t d,
                                 const bayesopt_design_options *options, double *x)
 {
+    NEED(x);
     bayesopt_design_options defaults;
     if (!options) {
         bayesopt_design_options_init(&defaults);

@@ -47,6 +47,12 @@ static double occupied_share(size_t n, size_t d, const double *x, unsigned char 
 bayesopt_status bayesopt_design_measure(size_t n, size_t d, const double *x,
                                         bayesopt_design_quality *quality)
 {
+    NEED(x);
+    NEED(quality);
+    if (!n || !d || n > BAYESOPT_MOST_POINTS || d > BAYESOPT_MOST_VARIABLES)
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
+                             "design of %zu points in %zu variables: expected 1 to %d and 1 to %d",
+                             n, d, BAYESOPT_MOST_POINTS, BAYESOPT_MOST_VARIABLES);
     for (size_t i = 0; i < n * d; i++)
         if (!(x[i] >= 0 && x[i] <= 1))
             return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,

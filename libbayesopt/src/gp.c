@@ -8,6 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Starts of a fit, and likelihood evaluations of a start: more would never end. */
+enum { MOST_SEARCH = 1000000 };
+
 static const double log_2pi = 1.8378770664093454836;
 
 const char *bayesopt_kernel_name(bayesopt_kernel kernel)
@@ -24,6 +27,8 @@ const char *bayesopt_transform_name(bayesopt_transform transform)
 
 void bayesopt_gp_options_init(bayesopt_gp_options *options)
 {
+    if (!options)
+        return;
     *options = (bayesopt_gp_options){
         .kernel = BAYESOPT_KERNEL_MATERN52,
         .scales = BAYESOPT_SCALES_ARD,
@@ -62,10 +67,10 @@ static bayesopt_status check_options(size_t d, const bayesopt_gp_options *o)
             "gp: prior shift %g, common variance %g, variance %g: expected finite, "
             "positive, positive or NAN",
             o->prior_shift, o->prior_common, o->prior_variance);
-    if (!o->starts || !o->evaluations)
+    if (!o->starts || !o->evaluations || o->starts > MOST_SEARCH || o->evaluations > MOST_SEARCH)
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
-                             "gp: %zu starts of %zu evaluations, expected at least one of each",
-                             o->starts, o->evaluations);
+                             "gp: %zu starts of %zu evaluations, expected 1 to %d of each", o->starts,
+                             o->evaluations, MOST_SEARCH);
     if (o->scales != BAYESOPT_SCALES_TIED)
         return BAYESOPT_OK;
     if (!o->group)
@@ -84,6 +89,7 @@ static bayesopt_status check_options(size_t d, const bayesopt_gp_options *o)
 
 bayesopt_status bayesopt_gp_create(size_t d, const bayesopt_gp_options *options, bayesopt_gp **out)
 {
+    NEED(out);
     bayesopt_gp_options defaults;
     if (!options) {
         bayesopt_gp_options_init(&defaults);
@@ -201,6 +207,10 @@ static void copy_data(bayesopt_gp *gp, size_t at, size_t n, const double *x, con
 bayesopt_status bayesopt_gp_set_data(bayesopt_gp *gp, size_t n, const double *x, const double *y,
                                      const double *variance)
 {
+    NEED(gp);
+    NEED(x);
+    NEED(y);
+    NEED_MOST(n, BAYESOPT_MOST_POINTS);
     bayesopt_status status = check_data(gp, n, x, y, variance);
     gp->conditioned = status ? gp->conditioned : false;
     if (!status)
@@ -405,6 +415,9 @@ bool gp_likelihood(struct bayesopt_gp *gp, const struct gp_theta *theta, struct 
 bayesopt_status bayesopt_gp_set_parameters(bayesopt_gp *gp,
                                            const bayesopt_gp_parameters *parameters)
 {
+    NEED(gp);
+    NEED(parameters);
+    NEED(parameters->lengthscale);
     for (size_t j = 0; j < gp->d; j++)
         if (!(parameters->lengthscale[j] > 0 && isfinite(parameters->lengthscale[j])))
             return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
@@ -452,6 +465,10 @@ static bool append_row(bayesopt_gp *gp, size_t i)
 bayesopt_status bayesopt_gp_append(bayesopt_gp *gp, size_t n, const double *x, const double *y,
                                    const double *variance)
 {
+    NEED(gp);
+    NEED(x);
+    NEED(y);
+    NEED_MOST(n, BAYESOPT_MOST_POINTS);
     if (!gp->conditioned)
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
                              "gp: append before the model has data and hyper-parameters");
@@ -481,6 +498,8 @@ bayesopt_status bayesopt_gp_append(bayesopt_gp *gp, size_t n, const double *x, c
 
 void bayesopt_gp_forget(bayesopt_gp *gp)
 {
+    if (!gp)
+        return;
     gp->has_parameters = false;
     gp->conditioned = false;
 }
@@ -488,6 +507,8 @@ void bayesopt_gp_forget(bayesopt_gp *gp)
 bayesopt_status bayesopt_gp_get_parameters(const bayesopt_gp *gp,
                                            bayesopt_gp_parameters *parameters)
 {
+    NEED(gp);
+    NEED(parameters);
     if (!gp->has_parameters)
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "gp: no hyper-parameters yet");
     if (parameters->lengthscale)
@@ -508,6 +529,8 @@ static bayesopt_status need_conditioning(const bayesopt_gp *gp)
 
 bayesopt_status bayesopt_gp_get_info(const bayesopt_gp *gp, bayesopt_gp_info *info)
 {
+    NEED(gp);
+    NEED(info);
     bayesopt_status status = need_conditioning(gp);
     if (status)
         return status;

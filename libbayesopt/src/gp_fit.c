@@ -594,6 +594,7 @@ static void fall_back(bayesopt_gp *gp)
 
 bayesopt_status bayesopt_gp_fit(bayesopt_gp *gp)
 {
+    NEED(gp);
     if (!gp->n)
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "gp: fit without data");
     size_t *isotropic_groups = calloc(gp->d, sizeof *isotropic_groups);

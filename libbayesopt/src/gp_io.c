@@ -68,6 +68,8 @@ static void leave_c_locale(locale_t c, locale_t before)
 
 bayesopt_status bayesopt_gp_save(const bayesopt_gp *gp, const char *path)
 {
+    NEED(gp);
+    NEED(path);
     size_t length = strlen(path);
     char *temporary = malloc(length + 5);
     if (!temporary)
@@ -229,6 +231,8 @@ static bayesopt_status read_all(FILE *file, bayesopt_gp **out)
 
 bayesopt_status bayesopt_gp_load(const char *path, bayesopt_gp **gp)
 {
+    NEED(path);
+    NEED(gp);
     FILE *file = fopen(path, "r");
     if (!file)
         return bayesopt_fail(BAYESOPT_ERROR_FILE, "%s: cannot be read", path);

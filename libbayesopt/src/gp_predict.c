@@ -79,6 +79,10 @@ static void predict_block(const bayesopt_gp *gp, size_t m, const double *x, doub
 bayesopt_status bayesopt_gp_predict(const bayesopt_gp *gp, size_t m, const double *x, double *mean,
                                     double *var)
 {
+    NEED(gp);
+    NEED(x);
+    NEED(mean);
+    NEED_MOST(m, BAYESOPT_MOST_POINTS);
     bayesopt_status status = need(gp, "prediction");
     if (status)
         return status;
@@ -96,6 +100,13 @@ bayesopt_status bayesopt_gp_predict(const bayesopt_gp *gp, size_t m, const doubl
 bayesopt_status bayesopt_gp_predict_gradient(const bayesopt_gp *gp, const double *x, double *mean,
                                              double *var, double *dmean, double *dvar, double *work)
 {
+    NEED(gp);
+    NEED(x);
+    NEED(mean);
+    NEED(var);
+    NEED(dmean);
+    NEED(dvar);
+    NEED(work);
     bayesopt_status status = need(gp, "prediction");
     if (status)
         return status;
@@ -135,16 +146,18 @@ bayesopt_status bayesopt_gp_predict_gradient(const bayesopt_gp *gp, const double
 
 double bayesopt_gp_to_model(const bayesopt_gp *gp, double y)
 {
-    return transform_apply(&gp->transform, y);
+    return gp ? transform_apply(&gp->transform, y) : (double)NAN;
 }
 
 double bayesopt_gp_from_model(const bayesopt_gp *gp, double value)
 {
-    return transform_invert(&gp->transform, value);
+    return gp ? transform_invert(&gp->transform, value) : (double)NAN;
 }
 
 bayesopt_status bayesopt_gp_log_likelihood(const bayesopt_gp *gp, double *value, double *gradient)
 {
+    NEED(gp);
+    NEED(value);
     bayesopt_status status = need(gp, "likelihood");
     if (status)
         return status;
@@ -163,6 +176,8 @@ bayesopt_status bayesopt_gp_log_likelihood(const bayesopt_gp *gp, double *value,
 
 bayesopt_status bayesopt_gp_outputs(const bayesopt_gp *gp, double *t)
 {
+    NEED(gp);
+    NEED(t);
     bayesopt_status status = need(gp, "outputs");
     if (!status)
         memcpy(t, gp->t, gp->n * sizeof *t);
@@ -171,6 +186,9 @@ bayesopt_status bayesopt_gp_outputs(const bayesopt_gp *gp, double *t)
 
 bayesopt_status bayesopt_gp_loo(const bayesopt_gp *gp, double *mean, double *var)
 {
+    NEED(gp);
+    NEED(mean);
+    NEED(var);
     bayesopt_status status = need(gp, "leave-one-out");
     if (status)
         return status;

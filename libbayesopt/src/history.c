@@ -124,9 +124,8 @@ size_t history_best(const struct bayesopt *bo, bool *feasible)
 
 bayesopt_status bayesopt_best_told(const bayesopt *bo, double *x, double *f, uint64_t *id)
 {
+    NEED(bo);
     bool feasible;
-    if (!bo)
-        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "the optimisation is NULL");
     size_t best = history_best(bo, &feasible);
     if (best == SIZE_MAX)
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "no evaluation has succeeded yet");
@@ -141,11 +140,13 @@ bayesopt_status bayesopt_best_told(const bayesopt *bo, double *x, double *f, uin
 
 size_t bayesopt_count(const bayesopt *bo)
 {
-    return bo->n_points;
+    return bo ? bo->n_points : 0;
 }
 
 bayesopt_status bayesopt_get(const bayesopt *bo, size_t i, bayesopt_point *point)
 {
+    NEED(bo);
+    NEED(point);
     if (i >= bo->n_points)
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "row %zu of a history of %zu", i,
                              bo->n_points);

@@ -9,6 +9,8 @@
 bayesopt_status bayesopt_minimise(bayesopt *bo, bayesopt_objective objective, void *data,
                                   bayesopt_progress progress, void *progress_user_data)
 {
+    NEED(bo);
+    NEED(objective);
     size_t m = bo->options.n_constraints;
     double *x = malloc((bo->d + m + 1) * sizeof *x);
     if (!x)

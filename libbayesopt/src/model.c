@@ -67,9 +67,10 @@ static bayesopt_status best_by_model(bayesopt *bo, size_t *best, double *f, bool
 
 bayesopt_status bayesopt_best(bayesopt *bo, double *x, double *f, uint64_t *id)
 {
+    NEED(bo);
     bool feasible;
     double mean;
-    size_t best = bo ? history_best(bo, &feasible) : SIZE_MAX;
+    size_t best = history_best(bo, &feasible);
     if (best == SIZE_MAX || bo->options.noise == BAYESOPT_NOISE_DETERMINISTIC || count_done(bo) < 2)
         return bayesopt_best_told(bo, x, f, id);
     bayesopt_status status = best_by_model(bo, &best, &mean, &feasible);
@@ -87,6 +88,10 @@ bayesopt_status bayesopt_best(bayesopt *bo, double *x, double *f, uint64_t *id)
 
 bayesopt_status bayesopt_predict(bayesopt *bo, size_t n, const double *x, double *mean, double *sd)
 {
+    NEED(bo);
+    NEED(x);
+    NEED(mean);
+    NEED_MOST(n, BAYESOPT_MOST_POINTS);
     bayesopt_status status = ensure_model(bo);
     double *u = malloc((n ? n : 1) * (bo->d + 1) * sizeof *u);
     if (!status && !u)
@@ -124,6 +129,8 @@ static double loo_error(const bayesopt_gp *gp, size_t n)
 
 bayesopt_status bayesopt_model(bayesopt *bo, bayesopt_model_info *info, double *lengthscale)
 {
+    NEED(bo);
+    NEED(info);
     bayesopt_status status = ensure_model(bo);
     bayesopt_gp_info gp_info;
     bayesopt_gp_parameters parameters = {.lengthscale = lengthscale};

@@ -25,6 +25,8 @@ const char *bayesopt_strategy_name(bayesopt_strategy strategy)
 
 void bayesopt_options_init(bayesopt_options *options)
 {
+    if (!options)
+        return;
     *options = (bayesopt_options){
         .seed = 1,
         .initial_kind = BAYESOPT_DESIGN_ANNEALED_LHS,

@@ -30,6 +30,8 @@ size_t problem_initial(const struct bayesopt *bo)
 
 size_t bayesopt_dimension(const bayesopt *bo, double *lower, double *upper)
 {
+    if (!bo)
+        return 0;
     if (lower)
         memcpy(lower, bo->lower, bo->d * sizeof *lower);
     if (upper)
@@ -39,7 +41,9 @@ size_t bayesopt_dimension(const bayesopt *bo, double *lower, double *upper)
 
 size_t bayesopt_constraint_count(const bayesopt *bo, double *lower, double *upper)
 {
-    size_t m = bo->options.n_constraints;
+    size_t m = bo ? bo->options.n_constraints : 0;
+    if (!m)
+        return 0;
     if (lower)
         memcpy(lower, bo->constraint_lower, m * sizeof *lower);
     if (upper)
@@ -49,20 +53,20 @@ size_t bayesopt_constraint_count(const bayesopt *bo, double *lower, double *uppe
 
 size_t bayesopt_budget(const bayesopt *bo)
 {
-    return problem_budget(bo);
+    return bo ? problem_budget(bo) : 0;
 }
 
 size_t bayesopt_level_count(const bayesopt *bo)
 {
-    return bo->options.n_levels;
+    return bo ? bo->options.n_levels : 0;
 }
 
 size_t bayesopt_initial_count(const bayesopt *bo)
 {
-    return problem_initial(bo);
+    return bo ? problem_initial(bo) : 0;
 }
 
 uint64_t bayesopt_seed(const bayesopt *bo)
 {
-    return bo->options.seed;
+    return bo ? bo->options.seed : 0;
 }

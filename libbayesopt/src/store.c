@@ -292,6 +292,7 @@ void store_rollback(struct bayesopt *bo)
 
 bayesopt_status bayesopt_refresh(bayesopt *bo)
 {
+    NEED(bo);
     return bo->store ? store_refresh(bo) : BAYESOPT_OK;
 }
 

@@ -9,6 +9,9 @@
 /* The rows of this table are the attributes of the points; the caller's tables have names. */
 static const char points[] = "";
 
+/* What one entry of an SQLite database holds. */
+static const size_t MOST_NUMBERS = 1000000000 / sizeof(double);
+
 struct bayesopt_table {
     size_t n;
     struct attributes *rows;
@@ -112,9 +115,10 @@ bayesopt_status bayesopt_store_put_array(bayesopt *bo, const char *name, size_t 
 {
     sqlite3_stmt *s;
     bayesopt_status status = check_name(bo, name);
-    if (!status && (rows && columns && (!values || rows > SIZE_MAX / columns / sizeof *values)))
-        status = bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "'%s': %zu x %zu numbers, values %s", name,
-                               rows, columns, values ? "given" : "NULL");
+    if (!status && rows && columns && (!values || rows > MOST_NUMBERS / columns))
+        status = bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
+                               "'%s': %zu x %zu numbers, values %s, expected at most %zu given",
+                               name, rows, columns, values ? "given" : "NULL", MOST_NUMBERS);
     if (!status)
         status = store_begin(bo);
     if (status)

@@ -128,6 +128,7 @@ bayesopt_status store_release_orphans(struct bayesopt *bo, bool reclaim)
 
 bayesopt_status bayesopt_reclaim(bayesopt *bo)
 {
+    NEED(bo);
     bayesopt_status status = store_begin(bo);
     if (status)
         return status;
@@ -143,6 +144,7 @@ bayesopt_status bayesopt_reclaim(bayesopt *bo)
 
 bayesopt_status bayesopt_detach(bayesopt *bo)
 {
+    NEED(bo);
     bayesopt_status status = store_begin(bo);
     for (size_t i = 0; bo->store && i < bo->n_points && !status; i++) {
         struct point *p = &bo->points[i];

@@ -97,6 +97,8 @@ static bayesopt_status find_point(struct bayesopt *bo, uint64_t id, struct point
 
 bayesopt_status bayesopt_tell_result(bayesopt *bo, uint64_t id, const bayesopt_result *result)
 {
+    NEED(bo);
+    NEED(result);
     bayesopt_status status = check_result(bo, result);
     if (!status)
         status = store_begin(bo);
@@ -123,18 +125,21 @@ bayesopt_status bayesopt_tell_result(bayesopt *bo, uint64_t id, const bayesopt_r
 
 bayesopt_status bayesopt_tell(bayesopt *bo, uint64_t id, double f, const double *constraints)
 {
+    NEED(bo);
     bayesopt_result result = {.f = f, .constraints = constraints};
     return bayesopt_tell_result(bo, id, &result);
 }
 
 bayesopt_status bayesopt_tell_failed(bayesopt *bo, uint64_t id, const char *reason)
 {
+    NEED(bo);
     bayesopt_result result = {.f = NAN, .note = reason ? reason : ""};
     return bayesopt_tell_result(bo, id, &result);
 }
 
 bayesopt_status bayesopt_release(bayesopt *bo, uint64_t id)
 {
+    NEED(bo);
     struct point *p;
     bayesopt_status status = store_begin(bo);
     if (status)
@@ -167,6 +172,9 @@ bayesopt_status bayesopt_release(bayesopt *bo, uint64_t id)
 bayesopt_status bayesopt_tell_point_result(bayesopt *bo, const double *x,
                                            const bayesopt_result *result, uint64_t *id)
 {
+    NEED(bo);
+    NEED(x);
+    NEED(result);
     for (size_t j = 0; j < bo->d; j++)
         if (!(x[j] >= bo->lower[j] && x[j] <= bo->upper[j]))
             return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
@@ -197,6 +205,8 @@ bayesopt_status bayesopt_tell_point_result(bayesopt *bo, const double *x,
 bayesopt_status bayesopt_tell_point(bayesopt *bo, const double *x, double f,
                                     const double *constraints)
 {
+    NEED(bo);
+    NEED(x);
     bayesopt_result result = {.f = f, .constraints = constraints};
     return bayesopt_tell_point_result(bo, x, &result, NULL);
 }
