@@ -69,8 +69,8 @@ static bayesopt_status check_options(size_t d, const bayesopt_gp_options *o)
             o->prior_shift, o->prior_common, o->prior_variance);
     if (!o->starts || !o->evaluations || o->starts > MOST_SEARCH || o->evaluations > MOST_SEARCH)
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
-                             "gp: %zu starts of %zu evaluations, expected 1 to %d of each", o->starts,
-                             o->evaluations, MOST_SEARCH);
+                             "gp: %zu starts of %zu evaluations, expected 1 to %d of each",
+                             o->starts, o->evaluations, MOST_SEARCH);
     if (o->scales != BAYESOPT_SCALES_TIED)
         return BAYESOPT_OK;
     if (!o->group)

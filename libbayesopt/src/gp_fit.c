@@ -17,6 +17,9 @@ static const double log_2pi = 1.8378770664093454836;
 static const double scale_range[2] = {0.01, 100};
 static const double signal_range[2] = {0.02, 1e6};
 static const double signal_deviation = 3; /* log sf2 ~ N(0, 3^2) */
+/* Variances of the own part of log l_j that are compared: scales within a factor of about 1.4 and
+ * of 2.7 of each other; chosen on the first table of tests/bench/bayesopt_regret. */
+static const double tight_variance = 0.1, wide_variance = 1;
 
 /* log sn2 ~ N(centre, deviation^2). Deterministic data get a noise too, small enough to interpolate
  * and learnt, because simulations have a numerical one. */
@@ -25,6 +28,11 @@ struct noise_prior {
 };
 static const struct noise_prior learned_noise = {-4, 2, 1e-8, 0.5};
 static const struct noise_prior guard_noise = {-25, 2, 1e-12, 1e-6};
+
+/* The first two starts of a fit, in units of the prior's centre, and the deviations of the
+ * logarithms of the others; chosen on the first table of tests/bench/bayesopt_regret. */
+static const double start_scale[2] = {0.75, 4}, start_signal[2] = {1, 300};
+static const double start_spread = 0.7, start_signal_spread = 0.5;
 
 enum { MOST_PARAMETERS = BAYESOPT_MOST_VARIABLES + 2 };
 
@@ -233,12 +241,13 @@ static void make_start(const struct fit *fit, size_t s, double *theta)
     struct random_stream stream;
     random_start(&stream, fit->gp->options.seed, STREAM_FIT, s);
     double centre = 0.5 * log((double)fit->gp->d) + fit->gp->options.prior_shift;
-    double common = s == 0 ? log(0.75) : s == 1 ? log(4) : 0.7 * random_normal(&stream);
+    double common = s < 2 ? log(start_scale[s]) : start_spread * random_normal(&stream);
     for (size_t g = 0; g < fit->groups; g++) {
         double own = s > 1 ? sqrt(fit->model.variance) * random_normal(&stream) : 0;
         theta[g] = fmax(centre + common + own, log(0.1));
     }
-    theta[fit->groups] = s == 1 ? log(300) : s ? 0.5 * random_normal(&stream) : 0;
+    theta[fit->groups] =
+        s < 2 ? log(start_signal[s]) : start_signal_spread * random_normal(&stream);
     if (fit->parameters > fit->groups + 1)
         theta[fit->groups + 1] = fit->noise->centre + (s > 1 ? random_normal(&stream) : 0);
 }
@@ -252,7 +261,7 @@ static void adopt(struct fit *fit)
     gp->signal = theta.signal;
     gp->noise = theta.noise;
     gp->isotropic = fit->model.isotropic;
-    gp->wide = fit->model.variance > 0.5;
+    gp->wide = fit->model.variance >= wide_variance;
     gp->log_posterior = fit->best_value;
     gp->has_parameters = true;
 }
@@ -338,16 +347,16 @@ static size_t list_models(const bayesopt_gp *gp, struct model *models)
     const bayesopt_gp_options *o = &gp->options;
     size_t count = 0;
     if (gp->d > 1 && (o->scales == BAYESOPT_SCALES_AUTO || o->scales == BAYESOPT_SCALES_ISOTROPIC))
-        models[count++] = (struct model){true, 0.1};
+        models[count++] = (struct model){true, tight_variance};
     if (gp->d > 1 && o->scales == BAYESOPT_SCALES_ISOTROPIC)
         return count;
     if (!isnan(o->prior_variance)) {
         models[count++] = (struct model){false, o->prior_variance};
         return count;
     }
-    models[count++] = (struct model){false, 0.1};
+    models[count++] = (struct model){false, tight_variance};
     if (gp->d > 1)
-        models[count++] = (struct model){false, 1};
+        models[count++] = (struct model){false, wide_variance};
     return count;
 }
 
@@ -375,7 +384,8 @@ static bayesopt_status fit_isotropic(bayesopt_gp *gp, const size_t *isotropic_gr
 {
     struct fit fit;
     double theta[3];
-    bayesopt_status status = fit_create(&fit, gp, (struct model){true, 0.1}, isotropic_groups);
+    bayesopt_status status =
+        fit_create(&fit, gp, (struct model){true, tight_variance}, isotropic_groups);
     if (status)
         return status;
     for (size_t s = 0; s < starts && !status; s++) {
@@ -453,8 +463,8 @@ static bayesopt_status fit_warm(bayesopt_gp *gp, const size_t *isotropic_groups)
     struct fit fit;
     double theta[MOST_PARAMETERS];
     double variance = !isnan(gp->options.prior_variance) ? gp->options.prior_variance
-                      : gp->wide && !gp->isotropic       ? 1
-                                                         : 0.1;
+                      : gp->wide && !gp->isotropic       ? wide_variance
+                                                         : tight_variance;
     struct model model = {gp->isotropic && gp->d > 1, variance};
     bayesopt_status status = fit_create(&fit, gp, model, isotropic_groups);
     if (status)

@@ -103,22 +103,32 @@ bool point_feasible(const struct bayesopt *bo, const struct point *point)
     return point_counts(bo, point) && history_violation(bo, point) <= 0;
 }
 
+const struct merit merit_worst = {INFINITY, INFINITY};
+
+struct merit point_merit(const struct bayesopt *bo, const struct point *point)
+{
+    return (struct merit){history_violation(bo, point), point->f};
+}
+
+bool merit_better(struct merit a, struct merit b)
+{
+    return a.violation < b.violation || (a.violation == b.violation && a.f < b.f);
+}
+
 size_t history_best(const struct bayesopt *bo, bool *feasible)
 {
     size_t best = SIZE_MAX;
-    double violation = INFINITY, f = INFINITY;
+    struct merit most = merit_worst;
     for (size_t i = 0; i < bo->n_points; i++) {
-        const struct point *p = &bo->points[i];
-        if (!point_counts(bo, p))
+        if (!point_counts(bo, &bo->points[i]))
             continue;
-        double v = history_violation(bo, p);
-        if (v < violation || (v == violation && p->f < f)) {
-            violation = v;
-            f = p->f;
+        struct merit merit = point_merit(bo, &bo->points[i]);
+        if (merit_better(merit, most)) {
+            most = merit;
             best = i;
         }
     }
-    *feasible = best != SIZE_MAX && violation <= 0;
+    *feasible = best != SIZE_MAX && most.violation <= 0;
     return best;
 }
 

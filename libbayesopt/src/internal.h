@@ -77,6 +77,14 @@ bool point_feasible(const struct bayesopt *bo, const struct point *point);
 /* Index of the best point: feasible with least f, else least violation; SIZE_MAX if none is done.
  */
 size_t history_best(const struct bayesopt *bo, bool *feasible);
+/* How good a done point is: less violation first, then less f. */
+struct merit {
+    double violation, f;
+};
+struct merit point_merit(const struct bayesopt *bo, const struct point *point);
+bool merit_better(struct merit a, struct merit b);
+/* That of no point. */
+extern const struct merit merit_worst;
 double history_violation(const struct bayesopt *bo, const struct point *point);
 /* Appends a pending point at u (copied); NULL: out of memory. */
 struct point *history_append(struct bayesopt *bo, uint64_t id, const double *x,

@@ -42,26 +42,23 @@ static bayesopt_status predict_violation(const bayesopt *bo, const double *u, do
 /* The evaluated point whose mean is least, within the constraints by their means too. */
 static bayesopt_status best_by_model(bayesopt *bo, size_t *best, double *f, bool *feasible)
 {
-    double least = INFINITY, value;
+    struct merit most = merit_worst, merit;
     bayesopt_status status = ensure_model(bo);
-    *f = INFINITY;
     for (size_t i = 0; i < bo->n_points && !status; i++) {
         const struct point *p = &bo->points[i];
-        double violation = 0;
         if (!point_counts(bo, p))
             continue;
-        status = surrogates_predict(bo, 1, p->u, &value, NULL);
+        status = surrogates_predict(bo, 1, p->u, &merit.f, NULL);
         if (!status)
-            status = predict_violation(bo, p->u, &violation);
-        if (!status && (violation < least || (violation == least && value < *f))) {
-            least = violation;
-            *f = value;
+            status = predict_violation(bo, p->u, &merit.violation);
+        if (!status && merit_better(merit, most)) {
+            most = merit;
             *best = i;
         }
     }
     if (!status)
-        *f = bayesopt_gp_from_model(bo->surrogates.gps[0], *f);
-    *feasible = least <= 0;
+        *f = bayesopt_gp_from_model(bo->surrogates.gps[0], most.f);
+    *feasible = most.violation <= 0;
     return status;
 }
 

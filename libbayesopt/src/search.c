@@ -9,7 +9,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Where a step looks before it climbs, and how long it climbs; chosen on
+ * tests/bench/bayesopt_regret. Perturbations of the best points by two sizes keep all but about
+ * `moved_variables` coordinates (Regis and Shoemaker, Engineering Optimization 45 (2013) 529). */
 enum { NEIGHBOURS = 200, CENTRES = 5, ASCENT_EVALUATIONS = 60 };
+static const double neighbour_size[2] = {0.02, 0.1}, moved_variables = 8;
+/* Change of the acquisition, a logarithm, at which a climb ends. */
+static const double ascent_tolerance = 1e-5;
 
 struct climber {
     struct bayesopt *bo;
@@ -324,7 +330,7 @@ static bayesopt_status ascend(struct climber *c, const double *u)
     nlopt_set_lower_bounds(opt, c->search->lower);
     nlopt_set_upper_bounds(opt, c->search->upper);
     nlopt_set_maxeval(opt, ASCENT_EVALUATIONS);
-    nlopt_set_ftol_abs(opt, 1e-5);
+    nlopt_set_ftol_abs(opt, ascent_tolerance);
     if (m) {
         broyden.u = malloc((d + 2 * m + m * d) * sizeof *broyden.u);
         if (!broyden.u) {
@@ -351,18 +357,16 @@ static size_t pick_centres(const struct bayesopt *bo, size_t *centres)
     size_t count = 0;
     for (; count < CENTRES; count++) {
         size_t best = SIZE_MAX;
-        double violation = INFINITY, f = INFINITY;
+        struct merit most = merit_worst;
         for (size_t i = 0; i < bo->n_points; i++) {
-            const struct point *p = &bo->points[i];
-            bool taken = !point_counts(bo, p);
+            bool taken = !point_counts(bo, &bo->points[i]);
             for (size_t k = 0; k < count; k++)
                 taken = taken || centres[k] == i;
             if (taken)
                 continue;
-            double v = history_violation(bo, p);
-            if (v < violation || (v == violation && p->f < f)) {
-                violation = v;
-                f = p->f;
+            struct merit merit = point_merit(bo, &bo->points[i]);
+            if (merit_better(merit, most)) {
+                most = merit;
                 best = i;
             }
         }
@@ -390,10 +394,10 @@ static bayesopt_status make_candidates(struct bayesopt *bo, const struct search 
             x[i * d + j] = search->lower[j] + x[i * d + j] * (search->upper[j] - search->lower[j]);
     struct random_stream stream;
     random_start(&stream, bo->options.seed, STREAM_SEARCH, search->id);
-    double share = fmin(1, 8 / (double)d);
+    double share = fmin(1, moved_variables / (double)d);
     for (size_t i = 0; i < NEIGHBOURS && count; i++) {
         const double *centre = bo->points[centres[i % count]].u;
-        double *at = x + (search->candidates + i) * d, size = i % 2 ? 0.1 : 0.02;
+        double *at = x + (search->candidates + i) * d, size = neighbour_size[i % 2];
         size_t always = random_below(&stream, d);
         for (size_t j = 0; j < d; j++) {
             double draw = random_uniform(&stream), move = size * random_normal(&stream);

@@ -11,7 +11,7 @@
 /* How the local search stands. All of it is a function of the history. */
 struct trust {
     size_t centre; /* the best point: feasible with least value, else of least violation */
-    double f, violation;
+    struct merit best;
     /* The trust region of Eriksson et al., TuRBO, NeurIPS 2019: side of the box, grown after
      * successes in a row, halved after failures in a row, begun anew when it has collapsed. */
     double length;
@@ -33,6 +33,9 @@ struct trust {
  */
 static const uint64_t global_period = 8, polish_period = 2, settled_period = 6;
 
+/* Eriksson et al.: of the best value. */
+static const double success_share = 1e-3;
+
 static const double length_start = 0.8, length_least = 0x1p-7, length_most = 1.6;
 static const double radius_start = 0.2, radius_most = 0.5, radius_least = 1e-8;
 /* A gain is worth naming from this share on of the distance between the best tenth of the initial
@@ -45,6 +48,7 @@ static const double settled_step = 0.01;
  * of the box that is searched per square root of d; how many sizes of the trust region its steps
  * take by turns; how many of them polish. */
 static const double batch_apart = 0.04;
+enum { SUCCESSES = 3 }; /* in a row before the region grows; Eriksson et al. */
 enum { BATCH_SIZES = 3, BATCH_POLISHING = 2 };
 
 static size_t patience(const struct bayesopt *bo)
@@ -86,7 +90,7 @@ static void length_update(const struct bayesopt *bo, struct trust *t, bool succe
 {
     t->successes = success ? t->successes + 1 : 0;
     t->failures = success ? 0 : t->failures + 1;
-    if (t->successes >= 3) {
+    if (t->successes >= SUCCESSES) {
         t->length = fmin(2 * t->length, length_most);
         t->successes = 0;
     } else if (t->failures >= patience(bo)) {
@@ -99,12 +103,12 @@ static void length_update(const struct bayesopt *bo, struct trust *t, bool succe
 static void settle(const struct bayesopt *bo, struct trust *t, bool polishing, double step,
                    double gain, double good)
 {
-    double least = isfinite(good - t->f) ? least_share * (good - t->f) : 0;
+    double least = isfinite(good - t->best.f) ? least_share * (good - t->best.f) : 0;
     bool noisy = bo->options.noise != BAYESOPT_NOISE_DETERMINISTIC;
     t->idle++;
     t->idle_polished += polishing;
     t->gained += gain;
-    if (noisy || t->violation > 0 || t->gained > least || (polishing && step > settled_step)) {
+    if (noisy || t->best.violation > 0 || t->gained > least || (polishing && step > settled_step)) {
         t->settled = false;
         t->idle = t->idle_polished = 0;
         t->gained = 0;
@@ -123,13 +127,14 @@ static void trust_step(const struct bayesopt *bo, const struct point *p, double 
                        struct trust *t)
 {
     bool done = p->state == BAYESOPT_STATE_DONE;
-    double v = done ? history_violation(bo, p) : INFINITY;
-    bool better = done && (v < t->violation || (v == t->violation && p->f < t->f));
-    /* A step succeeds when it lowers the best value by more than a thousandth of its size, or the
-     * violation when nothing is feasible yet. */
-    bool success =
-        done && (v < t->violation || (v == t->violation && p->f < t->f - 1e-3 * fabs(t->f)));
-    double gain = better && v <= 0 && isfinite(t->f) ? t->f - p->f : 0;
+    struct merit merit = done ? point_merit(bo, p) : merit_worst;
+    bool better = merit_better(merit, t->best);
+    /* A step succeeds when it lowers the best value by a share of its size, or the violation when
+     * nothing is feasible yet. */
+    struct merit worth = t->best;
+    worth.f -= isfinite(worth.f) ? success_share * fabs(worth.f) : 0;
+    bool success = merit_better(merit, worth);
+    double gain = better && merit.violation <= 0 && isfinite(t->best.f) ? t->best.f - p->f : 0;
     double step = largest_difference(bo, p->u, t->centre);
     bool descent = p->phase == BAYESOPT_PHASE_DESCENT, polish = p->phase == BAYESOPT_PHASE_POLISH;
     if (polish || descent) {
@@ -147,19 +152,15 @@ static void trust_step(const struct bayesopt *bo, const struct point *p, double 
         settle(bo, t, polish || descent, step, gain, good);
     }
     if (better) {
-        t->violation = v;
-        t->f = p->f;
+        t->best = merit;
         t->centre = (size_t)(p - bo->points);
     }
 }
 
 static struct trust trust_replay(const struct bayesopt *bo)
 {
-    struct trust t = {.length = length_start,
-                      .radius = radius_start,
-                      .centre = SIZE_MAX,
-                      .f = INFINITY,
-                      .violation = INFINITY};
+    struct trust t = {
+        .length = length_start, .radius = radius_start, .centre = SIZE_MAX, .best = merit_worst};
     double good = good_value(bo);
     for (size_t i = 0; i < bo->n_points; i++)
         if (point_judged(&bo->points[i]) && bo->points[i].level + 1 == (int)bo->options.n_levels)
