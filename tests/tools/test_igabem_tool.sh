@@ -197,13 +197,23 @@ head='{"format":"nurbs","version":1,"unit":"m","patches":['
 echo "$head $face, $side]}" > "$work/closed.json"
 echo "$head $side]}" > "$work/open.json"
 for stern in open closed; do
-  "$igabem" check "$work/$stern.json" --json > "$work/json"
-  grep -q "\"stern\": \"$stern transom\"" "$work/json"
-  check "check tells an $stern transom" $?
+  expect_code 0 "" "$igabem" check "$work/$stern.json" --json
+  cp "$work/out" "$work/json"
+  grep -q '"stern": "open transom"' "$work/json"
+  check "check tells the transom of the $stern stern" $?
   expect_value volume 0.001 1e-6
   "$igabem" hydrostatics "$work/$stern.json" --json > "$work/json"
   expect_value transom_area 0.002 1e-6
 done
+expect_code 0 "patch 0: a flat face across the stern, a transom, no hull: left out" "$igabem" check "$work/closed.json"
+# Faces that CAD systems add change nothing, and are told; an opening is refused.
+"$igabem" hydrostatics "$hulls/wigley.json" --json > "$work/plain"
+face='{"degree":[1,1],"size":[2,2],"knots":[[0,0,1,1],[0,0,1,1]],
+  "points":[[-0.5,0,0],[-0.5,0,-0.0625],[0.5,0,0],[0.5,0,-0.0625]]}'
+sed "s/\"patches\": *\[/&$(echo $face), /" "$hulls/wigley.json" > "$work/faced.json"
+expect_code 0 "patch 0: in the centre plane, no hull: left out" "$igabem" hydrostatics "$work/faced.json" --json
+cmp -s "$work/out" "$work/plain"
+check "a face in the centre plane is no hull" $?
 expect_code 1 "open at" "$igabem" check <(sed 's/\[1,0,0.03\],\[1,0,-0.06\]/[1,0.01,0.03],[1,0.01,-0.06]/' "$work/open.json")
 
 [ $failures -eq 0 ] && echo "all checks passed"

@@ -182,6 +182,21 @@ expect 0 "$nurbs" plot "$hulls/dtmb5415.json" -o lines.pdf
 expect 2 "$nurbs" plot "$hulls/dtmb5415.json" -o lines.txt
 grep -c '<path' lines.svg | awk '{ exit !($1 > 20) }' || fail "lines.svg has few curves"
 
+# Hulls as they come: one half or the other, refused where something is missing.
+expect 0 "$nurbs" edit wigley.json scale:1,-1,1 -o starboard.json
+expect 0 "$nurbs" hydrostatics starboard.json --json
+says "starboard.json: the starboard half: mirrored"
+grep -q '"warnings": \["the starboard half' stdout || fail "no warning in the JSON"
+close volume 0.022222222222222222 1e-12
+expect 0 "$nurbs" edit wigley.json split:u:0.4 split:v:0.5 -o four.json
+expect 0 "$nurbs" hydrostatics four.json --json
+close volume 0.022222222222222222 1e-12
+expect 0 "$nurbs" edit wigley.json move:0,0.01,0 -o off.json
+expect 1 "$nurbs" hydrostatics off.json
+says "off.json: open at ("
+expect 0 "$nurbs" plot off.json -o off.svg
+says "off.json: open at ("
+
 # Patches: shared edges, orientation, exact changes; all of them leave the volume alone.
 expect 0 "$nurbs" edit wigley.json split:u:0.4 -o halves.json
 expect 0 "$nurbs" edit halves.json reverse:v -o turned.json

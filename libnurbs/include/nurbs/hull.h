@@ -6,6 +6,13 @@
  *
  * Axes of the result: x forward, y to port, z up, z = 0 the still water. Everything that was done
  * to the file's surfaces is told in sentences: nurbs_hull_step().
+ *
+ * Files hold more than hulls. Left out are faces in the centre plane, level ones in the water or
+ * above it, and flat ones across the stern in the aft 5 % (a transom is an opening). A starboard
+ * half is mirrored; of surfaces that run across the centre plane the port half is taken where a
+ * parameter line lies in it; a body open at large x only is turned round. Edges within 1e-6 of the
+ * extent of the water are put there; a half that overshoots the centre plane is lifted, by at most
+ * 1e-3 of the extent. Parameter lines may run in any direction, normals may point either way.
  */
 #ifndef NURBS_HULL_H
 #define NURBS_HULL_H
@@ -41,7 +48,9 @@ NURBS_API void nurbs_hull_options_init(nurbs_hull_options *options);
 
 /** Reads a hull: any file that nurbs_patches_read() takes. options NULL: defaults.
  * Errors: those of the reader; NURBS_ERROR_GEOMETRY, with file, patch and place: nothing below the
- * still water, a section that crosses it more than once, patches that enclose no volume. */
+ * still water, a section that crosses it more than once, an opening below the water elsewhere than
+ * at the stern, patches that lie on each other or share an edge by three, sides that are no mirror
+ * images, patches that enclose no volume; NURBS_ERROR_NUMERIC: options.cut cannot be kept. */
 NURBS_API nurbs_status nurbs_hull_read(const char *path, const nurbs_hull_options *options,
                                        nurbs_hull **hull);
 

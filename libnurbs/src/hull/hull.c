@@ -75,23 +75,102 @@ static void choose_length(nurbs_hull *hull)
         hull->length = h->x_fore - h->x_aft;
 }
 
+/* Back to the file's patches before they were cut. */
+static void dry(nurbs_hull *hull)
+{
+    if (hull->light != hull->wetted)
+        nurbs_patches_free(hull->light);
+    nurbs_patches_free(hull->wetted);
+    hull->light = hull->wetted = NULL;
+    hull->cut = false;
+    hull->bound = hull->deviation = hull->lifted = 0;
+}
+
+/* x -> lower + upper - x. */
+static nurbs_status turn_round(nurbs_hull *hull)
+{
+    hull_box box;
+    nurbs_patches *turned = NULL;
+    const double matrix[9] = {-1, 0, 0, 0, 1, 0, 0, 0, 1};
+    nurbs_status status = hull_box_of(hull->full, &box);
+    const double shift[3] = {box.lower[0] + box.upper[0], 0, 0};
+    if (!status)
+        status = nurbs_patches_transform(hull->full, matrix, shift, &turned);
+    if (status)
+        return status;
+    nurbs_patches_free(hull->full);
+    hull->full = turned;
+    return hull_tell(hull,
+                     "open at the end of large x, so the bow lies at small x: x turned to %.6g "
+                     "m - x",
+                     shift[0]);
+}
+
+static nurbs_status wet_and_check(nurbs_hull *hull, bool *bow_aft)
+{
+    *bow_aft = false;
+    size_t told = hull->steps;
+    nurbs_status status = hull_wet(hull);
+    if (!status)
+        status = hull_side(hull);
+    if (!status)
+        status = hull_check_edges(hull, bow_aft);
+    while (*bow_aft && hull->steps > told)
+        free(hull->step[--hull->steps]);
+    return status;
+}
+
+static nurbs_status clean(nurbs_hull *hull)
+{
+    hull_box box;
+    bool covers = !hull->options.unbounded;
+    nurbs_status status = hull_leave_out_centre(hull);
+    /* Decks and transoms from side to side say nothing of the sides; a level that a draft sets is
+     * known later. */
+    hull->level = hull->options.level;
+    if (!status && covers && isnan(hull->options.draft))
+        status = hull_leave_out_covers(hull);
+    if (!status)
+        status = hull_take_half(hull);
+    if (!status)
+        status = hull_box_of(hull->full, &box);
+    if (!status)
+        status = hull_choose_level(hull, &box);
+    if (!status && covers)
+        status = hull_leave_out_covers(hull);
+    return status;
+}
+
 static nurbs_status make(nurbs_hull *hull)
 {
     hull_box box;
-    if (nurbs_patches_count(hull->full) == 0)
+    bool bow_aft;
+    size_t n = nurbs_patches_count(hull->full);
+    if (n == 0)
         return nurbs_fail(NURBS_ERROR_GEOMETRY, "holds no patches, expected at least one");
     nurbs_status status = hull_box_of(hull->full, &box);
     if (status)
         return status;
+    hull->number = malloc(n * sizeof *hull->number);
+    if (!hull->number)
+        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu patches", n);
+    for (size_t k = 0; k < n; k++)
+        hull->number[k] = k;
     hull->extent = box.upper[0] - box.lower[0];
     if (isnan(hull->options.cut))
         hull->options.cut = default_cut * hull->extent;
     hull->lpp = nurbs_patches_length(hull->full);
-    status = hull_choose_level(hull, &box);
+    status = clean(hull);
     if (!status)
         status = hull_place(hull);
     if (!status)
-        status = hull_wet(hull);
+        status = wet_and_check(hull, &bow_aft);
+    if (status && bow_aft) {
+        dry(hull);
+        status = turn_round(hull);
+        if (!status)
+            status = wet_and_check(hull, &bow_aft);
+    }
     if (!status)
         status = hull_measure(hull);
     if (status)
@@ -119,9 +198,32 @@ static nurbs_status start(const nurbs_hull_options *options, nurbs_hull **hull)
     return NURBS_OK;
 }
 
-nurbs_status nurbs_hull_read(const char *path, const nurbs_hull_options *options, nurbs_hull **hull)
+/* Reads the file. Surfaces that a loop cuts come whole at first, which tells how large the hull is
+ * and so how closely they have to be resampled inside their loops. */
+static nurbs_status read_file(const char *path, nurbs_hull *hull)
 {
     char report[REPORT_SIZE];
+    hull_box box;
+    double tolerance = hull->options.cut;
+    nurbs_status status =
+        nurbs_patches_read_reported(path, 0.0, &hull->full, report, sizeof report);
+    if (!status && strstr(report, "the whole surface is kept")) {
+        status = hull_box_of(hull->full, &box);
+        nurbs_patches_free(hull->full);
+        hull->full = NULL;
+        if (isnan(tolerance))
+            tolerance = default_cut * (box.upper[0] - box.lower[0]);
+        if (!status)
+            status =
+                nurbs_patches_read_reported(path, tolerance, &hull->full, report, sizeof report);
+    }
+    if (!status && *report)
+        status = hull_tell(hull, "%s", report);
+    return status;
+}
+
+nurbs_status nurbs_hull_read(const char *path, const nurbs_hull_options *options, nurbs_hull **hull)
+{
     if (!path || !hull)
         return nurbs_fail(NURBS_ERROR_ARGUMENT, "path or hull is NULL");
     *hull = NULL;
@@ -129,9 +231,7 @@ nurbs_status nurbs_hull_read(const char *path, const nurbs_hull_options *options
     nurbs_status status = start(options, &result);
     if (status)
         return status;
-    status = nurbs_patches_read_reported(path, 0.0, &result->full, report, sizeof report);
-    if (!status && *report)
-        status = hull_tell(result, "%s", report);
+    status = read_file(path, result);
     if (!status) {
         status = make(result);
         if (status)
@@ -195,6 +295,7 @@ void nurbs_hull_free(nurbs_hull *hull)
     for (size_t k = 0; k < hull->steps; k++)
         free(hull->step[k]);
     free(hull->step);
+    free(hull->number);
     free(hull);
 }
 

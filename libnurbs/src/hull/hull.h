@@ -13,6 +13,8 @@ struct nurbs_hull {
     nurbs_patches *light; /* may be `wetted` itself */
     double extent;        /* of the file in x, m */
     double level, length, lpp, bound;
+    size_t *number;   /* [patches of full] in the file */
+    double lifted;    /* how far control points moved to y >= 0, m */
     double deviation; /* of cut surfaces from the full ones, m */
     bool half, cut, waterline, shares_space;
     struct hull_space *space; /* of the hulls rebuilt from this one; NULL: none */
@@ -33,12 +35,32 @@ nurbs_status hull_box_of(const nurbs_patches *patches, hull_box *box);
 __attribute__((format(printf, 2, 3))) nurbs_status hull_tell(nurbs_hull *hull, const char *format,
                                                              ...);
 
+/* An empty set with the length and note of another. */
+nurbs_status hull_start_patches(const nurbs_patches *from, nurbs_patches **to);
+
+/* Takes patches of full in the centre plane out; then those in the water or level above it, and
+ * transoms. */
+nurbs_status hull_leave_out_centre(nurbs_hull *hull);
+nurbs_status hull_leave_out_covers(nurbs_hull *hull);
+
+/* Mirrors a starboard half, takes the port half of surfaces across the centre plane. */
+nurbs_status hull_take_half(nurbs_hull *hull);
+
+/* Adds what of a surface lies below the level to a set. */
+nurbs_status hull_cut_strips(const nurbs_surface *surface, double level, double extent,
+                             double tolerance, nurbs_patches *below, double *deviation);
+
+/* Refuses wetted patches that leave an opening elsewhere than at the stern, or that cover a place
+ * twice; *bow_aft: the only openings are at the other end. */
+nurbs_status hull_check_edges(const nurbs_hull *hull, bool *bow_aft);
+
 /* From the file's patches, which `full` holds, to wetted and light ones. */
 nurbs_status hull_choose_level(nurbs_hull *hull, const hull_box *box);
 nurbs_status hull_place(nurbs_hull *hull);
 nurbs_status hull_wet(nurbs_hull *hull);
 
-/* Fills hull->half and hull->hydrostatics from the wetted patches. */
+/* Fills hull->half from the wetted patches; hull->hydrostatics. */
+nurbs_status hull_side(nurbs_hull *hull);
 nurbs_status hull_measure(nurbs_hull *hull);
 
 /* Hydrostatics of patches that all lie at y >= 0 (half), or on both sides of the centre plane. */

@@ -108,14 +108,17 @@ nurbs_status hull_hydrostatics(const nurbs_patches *wetted, bool half, nurbs_hyd
     return status;
 }
 
-nurbs_status hull_measure(nurbs_hull *hull)
+nurbs_status hull_side(nurbs_hull *hull)
 {
     hull_box box;
-    nurbs_status status = hull_box_of(hull->light, &box);
-    if (status)
-        return status;
+    nurbs_status status = hull_box_of(hull->wetted, &box);
     hull->half = box.lower[1] > -HULL_CLEARANCE * (box.upper[0] - box.lower[0]);
-    status = hull_hydrostatics(hull->wetted, hull->half, &hull->hydrostatics);
+    return status;
+}
+
+nurbs_status hull_measure(nurbs_hull *hull)
+{
+    nurbs_status status = hull_hydrostatics(hull->wetted, hull->half, &hull->hydrostatics);
     hull->waterline = hull->hydrostatics.waterplane_area > 0;
     return status;
 }

@@ -4,56 +4,133 @@
 #include "section/wetted.h"
 
 #include <nurbs/modify.h>
+#include <nurbs/section.h>
 #include <nurbs/simplify.h>
 #include <nurbs/topology.h>
 
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
+static const double most_lift = 1e-3;    /* of the extent: more is no overshoot of a fit */
 static const double simplify_cut = 1e-4; /* of the extent, where nothing else is asked for */
 
-/* The part below the level; sections are lines of constant u, or of constant v where those do not
- * cross the level. */
-static nurbs_status cut_patch(const nurbs_surface *patch, double level, double tolerance,
-                              nurbs_surface **below, double *deviation)
+/* The part below the level, in one piece along u, or along v where the lines of constant u do not
+ * cross the level, or in strips. The message names the patch's own parameters. */
+static nurbs_status cut_patch(const nurbs_surface *patch, double level, double extent,
+                              double tolerance, nurbs_patches *below, double *deviation)
 {
-    nurbs_surface *swapped = NULL;
-    nurbs_status status = surface_wetted(patch, level, tolerance, below, deviation);
-    if (status != NURBS_ERROR_GEOMETRY)
-        return status;
-    status = nurbs_surface_swap(patch, &swapped);
-    if (!status)
-        status = surface_wetted(swapped, level, tolerance, below, deviation);
+    nurbs_surface *swapped = NULL, *wetted = NULL;
+    nurbs_patches *parts = NULL;
+    nurbs_status status = surface_wetted(patch, level, tolerance, &wetted, deviation);
+    if (status == NURBS_ERROR_GEOMETRY) {
+        status = nurbs_surface_swap(patch, &swapped);
+        if (!status)
+            status = surface_wetted(swapped, level, tolerance, &wetted, deviation);
+    }
+    for (int turned = 0; turned < 2 && status == NURBS_ERROR_GEOMETRY; turned++) {
+        nurbs_patches_free(parts);
+        status = nurbs_patches_create(&parts);
+        if (!status)
+            status = hull_cut_strips(turned ? swapped : patch, level, extent, tolerance, parts,
+                                     deviation);
+    }
+    if (status == NURBS_ERROR_GEOMETRY)
+        status = surface_wetted(patch, level, tolerance, &wetted, deviation);
+    if (!status && wetted)
+        status = nurbs_patches_add(below, wetted);
+    for (size_t k = 0; !status && !wetted && k < nurbs_patches_count(parts); k++)
+        status = nurbs_patches_add(below, nurbs_patches_get(parts, k));
     nurbs_surface_free(swapped);
-    /* The message that names the patch's own parameters. */
-    return status ? surface_wetted(patch, level, tolerance, below, deviation) : status;
+    nurbs_surface_free(wetted);
+    nurbs_patches_free(parts);
+    return status;
 }
 
-/* One patch below the level, moved so that the water lies at z = 0; *wetted NULL when nothing of it
- * is below. */
+/* A half hull off the wrong side of the centre plane; *lifted NULL where nothing is to be done. */
+static nurbs_status lift(nurbs_hull *hull, const nurbs_surface *patch, const hull_box *box,
+                         nurbs_surface **lifted)
+{
+    double moved = 0;
+    *lifted = NULL;
+    if (box->lower[1] >= 0 || box->upper[1] <= -box->lower[1] || nurbs_surface_weights(patch))
+        return NURBS_OK;
+    nurbs_status status = nurbs_surface_raise_side(patch, lifted, &moved);
+    if (!status && moved > most_lift * hull->extent)
+        status =
+            nurbs_fail(NURBS_ERROR_GEOMETRY,
+                       "a patch reaches across the centre plane, to y = %.3g m: it takes moves "
+                       "of %.3g m to bring it to y >= 0, expected at most %.3g m",
+                       box->lower[1], moved, most_lift * hull->extent);
+    hull->lifted = fmax(hull->lifted, moved);
+    return status;
+}
+
+/* A surface that is not cut, with edges that lie within the clearance of the level put there. */
+static nurbs_status settle_edges(const nurbs_surface *patch, double level, double clearance,
+                                 nurbs_surface **settled)
+{
+    size_t n[2] = {nurbs_surface_size(patch, 0), nurbs_surface_size(patch, 1)};
+    const int degree[2] = {nurbs_surface_degree(patch, 0), nurbs_surface_degree(patch, 1)};
+    double *points = malloc(3 * n[0] * n[1] * sizeof *points);
+    if (!points)
+        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu points", n[0] * n[1]);
+    memcpy(points, nurbs_surface_points(patch), 3 * n[0] * n[1] * sizeof *points);
+    for (int e = 0; e < 4; e++) {
+        int along = e < 2;
+        size_t fixed = e % 2 ? n[!along] - 1 : 0;
+        double away = 0;
+        for (int pass = 0; pass < 2; pass++)
+            for (size_t k = 0; k < n[along]; k++) {
+                double *z = points + 3 * (along ? fixed * n[1] + k : k * n[1] + fixed) + 2;
+                away = fmax(away, fabs(*z - level));
+                if (pass == 1 && away <= clearance)
+                    *z = level;
+            }
+    }
+    nurbs_status status = nurbs_surface_create(degree, n, nurbs_surface_knots(patch, 0),
+                                               nurbs_surface_knots(patch, 1), points,
+                                               nurbs_surface_weights(patch), settled);
+    free(points);
+    return status;
+}
+
+/* What of one patch lies below the level, moved so that the water lies at z = 0. */
 static nurbs_status wet_patch(nurbs_hull *hull, const nurbs_surface *patch, double level, bool *cut,
-                              nurbs_surface **wetted)
+                              nurbs_patches *wetted)
 {
     double clearance = HULL_CLEARANCE * hull->extent;
     hull_box box = hull_box_empty();
-    *wetted = NULL;
+    nurbs_surface *lifted = NULL, *settled = NULL;
+    nurbs_patches *below = NULL;
     *cut = false;
     nurbs_status status = hull_box_widen(patch, &box);
     if (status || box.lower[2] >= level - clearance)
         return status;
-    nurbs_surface *below = NULL;
-    double deviation = 0;
     *cut = box.upper[2] > level + clearance;
-    status = *cut ? cut_patch(patch, level, hull->options.cut, &below, &deviation)
-                  : nurbs_surface_copy(patch, &below);
-    hull->deviation = fmax(hull->deviation, deviation);
-    if (!status && level == 0.0) {
-        *wetted = below;
-        return NURBS_OK;
-    }
-    const double shift[3] = {0.0, 0.0, -level};
+    status = nurbs_patches_create(&below);
     if (!status)
-        status = nurbs_surface_transform(below, NULL, shift, wetted);
-    nurbs_surface_free(below);
+        status = lift(hull, patch, &box, &lifted);
+    const nurbs_surface *sound = lifted ? lifted : patch;
+    if (!status && *cut)
+        status = cut_patch(sound, level, hull->extent, hull->options.cut, below, &hull->deviation);
+    else if (!status)
+        status = settle_edges(sound, level, clearance, &settled);
+    if (!status && settled)
+        status = nurbs_patches_add(below, settled);
+    const double shift[3] = {0.0, 0.0, -level};
+    for (size_t k = 0; !status && k < nurbs_patches_count(below); k++) {
+        nurbs_surface *moved = NULL;
+        if (level != 0.0)
+            status = nurbs_surface_transform(nurbs_patches_get(below, k), NULL, shift, &moved);
+        if (!status)
+            status = nurbs_patches_add(wetted, moved ? moved : nurbs_patches_get(below, k));
+        nurbs_surface_free(moved);
+    }
+    nurbs_surface_free(lifted);
+    nurbs_surface_free(settled);
+    nurbs_patches_free(below);
     return status;
 }
 
@@ -84,22 +161,21 @@ static size_t control_points(const nurbs_patches *patches)
 
 static nurbs_status wet_and_lighten(nurbs_hull *hull, size_t p)
 {
-    nurbs_surface *wetted;
     bool cut;
+    size_t first = nurbs_patches_count(hull->wetted);
     double tolerance = hull->options.simplify;
     nurbs_status status =
-        wet_patch(hull, nurbs_patches_get(hull->full, p), hull->level, &cut, &wetted);
-    if (status || !wetted)
+        wet_patch(hull, nurbs_patches_get(hull->full, p), hull->level, &cut, hull->wetted);
+    if (status)
         return status;
     hull->cut |= cut;
     if (isnan(tolerance))
         tolerance = cut ? simplify_cut : 0;
-    status = nurbs_patches_add(hull->wetted, wetted);
-    if (!status && tolerance > 0)
-        status = add_light(hull, wetted, tolerance * hull->extent);
-    else if (!status)
-        status = nurbs_patches_add(hull->light, wetted);
-    nurbs_surface_free(wetted);
+    for (size_t k = first; !status && k < nurbs_patches_count(hull->wetted); k++) {
+        const nurbs_surface *wetted = nurbs_patches_get(hull->wetted, k);
+        status = tolerance > 0 ? add_light(hull, wetted, tolerance * hull->extent)
+                               : nurbs_patches_add(hull->light, wetted);
+    }
     return status;
 }
 
@@ -108,8 +184,17 @@ nurbs_status hull_wet(nurbs_hull *hull)
     nurbs_status status = nurbs_patches_create(&hull->wetted);
     if (!status)
         status = nurbs_patches_create(&hull->light);
-    for (size_t p = 0; !status && p < nurbs_patches_count(hull->full); p++)
+    for (size_t p = 0; !status && p < nurbs_patches_count(hull->full); p++) {
+        char place[40];
+        snprintf(place, sizeof place, "patch %zu", hull->number[p]);
         status = wet_and_lighten(hull, p);
+        if (status)
+            return nurbs_fail_in(status, place);
+    }
+    if (status)
+        return status;
+    if (hull->lifted > HULL_CLEARANCE * hull->extent)
+        status = hull_tell(hull, "lifted onto y >= 0, by at most %.3g m", hull->lifted);
     if (status)
         return status;
     if (nurbs_patches_count(hull->wetted) == 0)
@@ -131,12 +216,8 @@ static nurbs_status file_draft(nurbs_hull *hull, double *draft)
     hull_box box;
     nurbs_status status = nurbs_patches_create(&wetted);
     for (size_t p = 0; !status && p < nurbs_patches_count(hull->full); p++) {
-        nurbs_surface *below;
         bool cut;
-        status = wet_patch(hull, nurbs_patches_get(hull->full, p), 0.0, &cut, &below);
-        if (!status && below)
-            status = nurbs_patches_add(wetted, below);
-        nurbs_surface_free(below);
+        status = wet_patch(hull, nurbs_patches_get(hull->full, p), 0.0, &cut, wetted);
     }
     if (!status)
         status = hull_box_of(wetted, &box);

@@ -8,7 +8,8 @@
  * connected part so that it encloses a positive volume with y = 0 and the level. Fills sign[n]. */
 nurbs_status outward_signs(size_t n, const nurbs_surface *const *patches, double level, int *sign);
 
-/* Integrals along the edges at the level: 2 y dx and its moments. */
+/* Integrals along the edges at the level, directed as the boundary of the outward surface, so that
+ * the inner side of a hull beside the centre plane subtracts: 2 y dx and its moments. */
 typedef struct waterplane {
     size_t edges;                                  /* 0: the body does not reach the level */
     double area, moment_x, inertia_xx, inertia_yy; /* 2y, 2xy, 2y^3/3, 2x^2 y times dx */
@@ -16,8 +17,8 @@ typedef struct waterplane {
 } waterplane;
 /* Whether all control points of edge e (u first, u last, v first, v last) lie at the level. */
 int edge_at_level(const nurbs_surface *surface, int e, double level);
-nurbs_status waterplane_integrate(size_t n, const nurbs_surface *const *patches, double level,
-                                  waterplane *plane);
+nurbs_status waterplane_integrate(size_t n, const nurbs_surface *const *patches, const int *sign,
+                                  double level, waterplane *plane);
 
 /* Largest value of sign * coordinate (0 x, 1 y, 2 z) over the patches, times sign. */
 nurbs_status extreme_point(size_t n, const nurbs_surface *const *patches, int coordinate,

@@ -125,7 +125,7 @@ static nurbs_status compute(size_t n, const nurbs_surface *const *wetted, const 
     if (status == NURBS_OK)
         status = check_half(&sums, level);
     if (status == NURBS_OK)
-        status = waterplane_integrate(n, wetted, level, &plane);
+        status = waterplane_integrate(n, wetted, role->sign, level, &plane);
     if (status != NURBS_OK)
         return status;
     if (!(sums.y_ny > 0))

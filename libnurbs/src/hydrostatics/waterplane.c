@@ -78,7 +78,7 @@ static void add_extremes(const nurbs_curve *curve, waterplane *plane)
 }
 
 /* Sixteen Gauss points a span: exact for cubics, and to rounding for rational arcs. */
-static nurbs_status add_edge(const nurbs_curve *curve, waterplane *plane)
+static nurbs_status add_edge(const nurbs_curve *curve, int sign, waterplane *plane)
 {
     enum { ORDER = 16 };
     double nodes[ORDER], weights[ORDER], p[6];
@@ -94,7 +94,6 @@ static nurbs_status add_edge(const nurbs_curve *curve, waterplane *plane)
             add_curve_point(p, length * weights[g], &edge);
         }
     }
-    double sign = edge.area < 0 ? -1 : 1;
     plane->area += sign * edge.area;
     plane->moment_x += sign * edge.moment_x;
     plane->inertia_xx += sign * edge.inertia_xx;
@@ -104,9 +103,11 @@ static nurbs_status add_edge(const nurbs_curve *curve, waterplane *plane)
     return status;
 }
 
-nurbs_status waterplane_integrate(size_t n, const nurbs_surface *const *patches, double level,
-                                  waterplane *plane)
+nurbs_status waterplane_integrate(size_t n, const nurbs_surface *const *patches, const int *sign,
+                                  double level, waterplane *plane)
 {
+    /* Direction of the edges' parameters along the boundary, the surface to the left. */
+    static const int along[4] = {-1, 1, 1, -1};
     *plane = (waterplane){.aft = INFINITY, .fore = -INFINITY};
     for (size_t k = 0; k < n; k++)
         for (int e = 0; e < 4; e++) {
@@ -118,7 +119,7 @@ nurbs_status waterplane_integrate(size_t n, const nurbs_surface *const *patches,
             nurbs_curve *curve = NULL;
             nurbs_status status = nurbs_surface_iso_curve(patches[k], direction, value, &curve);
             if (status == NURBS_OK)
-                status = add_edge(curve, plane);
+                status = add_edge(curve, sign[k] * along[e], plane);
             nurbs_curve_free(curve);
             if (status != NURBS_OK)
                 return status;

@@ -1,0 +1,154 @@
+/* Faces that bound a solid but are no hull: in the centre plane, in the water or level above it,
+ * across the stern. */
+#include "core/error.h"
+#include "hull/hull.h"
+#include "integrals/quadrature.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { ORDER = 6, LIST_SIZE = 120 };
+
+/* As nurbs_transom_patches(): |Int n dS| over the area, its x component, and the reach from the aft
+ * end over the extent. */
+static const double flat = 0.999, facing = 0.7, stern_reach = 0.05;
+
+/* Adds patch `index` of `from` with the parameters of its design grid. */
+static nurbs_status add_patch(const nurbs_patches *from, size_t index, nurbs_patches *to)
+{
+    const double *u, *v;
+    size_t rows = nurbs_patches_parameters(from, index, 0, &u),
+           columns = nurbs_patches_parameters(from, index, 1, &v);
+    nurbs_status status = nurbs_patches_add(to, nurbs_patches_get(from, index));
+    return status
+               ? status
+               : nurbs_patches_set_parameters(to, nurbs_patches_count(to) - 1, rows, u, columns, v);
+}
+
+nurbs_status hull_start_patches(const nurbs_patches *from, nurbs_patches **to)
+{
+    nurbs_status status = nurbs_patches_create(to);
+    if (!status)
+        status = nurbs_patches_set_length(*to, nurbs_patches_length(from));
+    return status ? status : nurbs_patches_set_note(*to, nurbs_patches_note(from));
+}
+
+/* "patches 2, 5" by the numbers of the file. */
+static void name_patches(const nurbs_hull *hull, const bool *drop, char list[LIST_SIZE])
+{
+    size_t n = nurbs_patches_count(hull->full), count = 0, used = 0;
+    for (size_t k = 0; k < n; k++)
+        count += drop[k];
+    used = (size_t)snprintf(list, LIST_SIZE, "%s", count == 1 ? "patch" : "patches");
+    for (size_t k = 0, told = 0; k < n; k++) {
+        if (!drop[k])
+            continue;
+        if (used + 40 > LIST_SIZE) {
+            snprintf(list + used, LIST_SIZE - used, " and %zu more", count - told);
+            return;
+        }
+        used += (size_t)snprintf(list + used, LIST_SIZE - used, "%s %zu", told++ ? "," : "",
+                                 hull->number[k]);
+    }
+}
+
+/* Leaves out the marked patches of full, if any, and says so. */
+static nurbs_status leave_out(nurbs_hull *hull, const bool *drop, const char *why)
+{
+    char list[LIST_SIZE];
+    size_t n = nurbs_patches_count(hull->full), kept = 0, dropped = 0;
+    for (size_t k = 0; k < n; k++)
+        dropped += drop[k];
+    if (dropped == 0)
+        return NURBS_OK;
+    if (dropped == n)
+        return nurbs_fail(NURBS_ERROR_GEOMETRY, "all %zu patches %s: there is no hull", n, why);
+    name_patches(hull, drop, list);
+    nurbs_patches *rest = NULL;
+    nurbs_status status = hull_start_patches(hull->full, &rest);
+    for (size_t k = 0; k < n && !status; k++)
+        if (!drop[k]) {
+            status = add_patch(hull->full, k, rest);
+            hull->number[kept++] = hull->number[k];
+        }
+    if (status) {
+        nurbs_patches_free(rest);
+        return status;
+    }
+    nurbs_patches_free(hull->full);
+    hull->full = rest;
+    return hull_tell(hull, "%s: %s, no hull: left out", list, why);
+}
+
+/* Marks patches by a rule. */
+typedef nurbs_status rule(const nurbs_hull *hull, const nurbs_surface *patch, const hull_box *all,
+                          bool *drop);
+
+static nurbs_status apply(nurbs_hull *hull, rule *applies, const char *why)
+{
+    hull_box all;
+    size_t n = nurbs_patches_count(hull->full);
+    bool *drop = calloc(n, sizeof *drop);
+    nurbs_status status = drop ? hull_box_of(hull->full, &all)
+                               : nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu patches", n);
+    for (size_t k = 0; k < n && !status; k++)
+        status = applies(hull, nurbs_patches_get(hull->full, k), &all, &drop[k]);
+    if (!status)
+        status = leave_out(hull, drop, why);
+    free(drop);
+    return status;
+}
+
+static nurbs_status in_centre_plane(const nurbs_hull *hull, const nurbs_surface *patch,
+                                    const hull_box *all, bool *drop)
+{
+    hull_box box = hull_box_empty();
+    nurbs_status status = hull_box_widen(patch, &box);
+    double clearance = HULL_CLEARANCE * hull->extent;
+    (void)all;
+    *drop = box.lower[1] >= -clearance && box.upper[1] <= clearance;
+    return status;
+}
+
+static nurbs_status level_deck(const nurbs_hull *hull, const nurbs_surface *patch,
+                               const hull_box *all, bool *drop)
+{
+    hull_box box = hull_box_empty();
+    nurbs_status status = hull_box_widen(patch, &box);
+    double clearance = HULL_CLEARANCE * hull->extent;
+    (void)all;
+    *drop = box.upper[2] - box.lower[2] <= clearance && box.lower[2] >= hull->level - clearance;
+    return status;
+}
+
+static nurbs_status transom(const nurbs_hull *hull, const nurbs_surface *patch, const hull_box *all,
+                            bool *drop)
+{
+    patch_sums sums;
+    hull_box box = hull_box_empty();
+    nurbs_status status = patch_integrate(patch, hull->level, ORDER, &sums);
+    const double *s = sums.normal;
+    *drop = false;
+    if (!status)
+        status = hull_box_widen(patch, &box);
+    if (status || nurbs_patches_count(hull->full) == 1)
+        return status;
+    double size = sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
+    *drop = size > flat * sums.area && fabs(s[0]) > facing * size &&
+            box.upper[0] < all->lower[0] + stern_reach * hull->extent &&
+            box.upper[2] >= hull->level - HULL_CLEARANCE * hull->extent;
+    return NURBS_OK;
+}
+
+nurbs_status hull_leave_out_centre(nurbs_hull *hull)
+{
+    return apply(hull, in_centre_plane, "in the centre plane");
+}
+
+nurbs_status hull_leave_out_covers(nurbs_hull *hull)
+{
+    nurbs_status status = apply(hull, level_deck, "level, in the still water or above it");
+    return status ? status : apply(hull, transom, "a flat face across the stern, a transom");
+}
