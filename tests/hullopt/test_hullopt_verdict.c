@@ -124,6 +124,7 @@ static void test_plan(void)
     struct verification rows[VERIFY_MOST];
     igabem_options_init(frozen);
     frozen->froude = 0.35;
+    frozen->refine = 1;
     frozen->formulation = IGABEM_FORMULATION_NEUMANN_KELVIN_STERN;
     frozen->stern_length = 0.35;
     frozen->cutoff_angle = 5.0;

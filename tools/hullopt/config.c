@@ -28,6 +28,12 @@ static const char *strategy(int value)
                                            : bayesopt_strategy_name((bayesopt_strategy)value);
 }
 
+static const char *method(int value)
+{
+    static const char *const names[] = {"bayesian", "gauss-newton", NULL};
+    return names[value];
+}
+
 #define ROW(...) SETTING_ROW(struct config, __VA_ARGS__)
 
 static const struct setting ROWS[] = {
@@ -65,7 +71,8 @@ static const struct setting ROWS[] = {
     ROW("flow.gravity", NUMBER, solver.gravity, "m/s^2", SETTING_ABOVE(0)),
     ROW("flow.density", NUMBER, solver.density, "kg/m^3", SETTING_ABOVE(0)),
     ROW("solver.formulation", CHOICE, solver.formulation, "what is solved", .choice = formulation),
-    ROW("solver.refine", INTEGER, solver.refine, "parts of every knot span", SETTING_FROM(1, 16)),
+    ROW("solver.refine", INTEGER, solver.refine, "parts of every knot span", SETTING_FROM(1, 16),
+        .otherwise = "1"),
     ROW("solver.degree", INTEGER, solver.degree, "least degree of the density", SETTING_FROM(1, 9)),
     ROW("solver.line_term", SWITCH, solver.line_term, "Brard's waterline integral",
         .size = sizeof(int)),
@@ -89,6 +96,9 @@ static const struct setting ROWS[] = {
         "largest tangent of the Kochin integral", SETTING_ABOVE(1)),
     ROW("solver.tolerance", NUMBER, solver.tolerance, "relative error asked of the quadrature",
         SETTING_INSIDE(0, 0.1)),
+    ROW("search.method", CHOICE, method,
+        "a Gaussian process, or descent by derivatives of the Kochin function", .choice = method,
+        .otherwise = "bayesian"),
     ROW("search.initial", COUNT, initial, "designs before the first proposal", SETTING_FROM(2, 1e5),
         .otherwise = "200"),
     ROW("search.iterations", COUNT, iterations, "proposals after them", SETTING_FROM(0, 1e5),

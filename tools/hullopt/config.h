@@ -14,6 +14,8 @@
 
 enum { CONFIG_FROUDE_MOST = 8 };
 
+enum search_method { SEARCH_BAYESIAN, SEARCH_GAUSS_NEWTON };
+
 struct config {
     char *path;         /* of the YAML file; the paths below are resolved against its folder */
     char *name;         /* title of the report */
@@ -29,6 +31,7 @@ struct config {
     double pressure;     /* largest pressure resistance over that of the parent; NAN: any */
     double speeds;       /* largest C_w at each of verify_froude over the parent's; NAN: any */
     double breadth; /* least share of its half breadth that a wet point keeps; NAN: any from 0 */
+    enum search_method method;
     size_t initial, iterations;
     bayesopt_design_kind design;
     bayesopt_strategy strategy;

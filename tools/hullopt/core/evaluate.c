@@ -75,29 +75,42 @@ static bool keep(igabem_solution *const *solutions, struct evaluation *e)
     return true;
 }
 
-/* The speed of the search, and the others when the configuration bounds C_w there. */
-static bool solve(const struct problem *problem, const igabem_hull *body, struct evaluation *e)
+size_t evaluate_settings(const struct problem *problem, igabem_options settings[SETTINGS_MOST])
 {
-    igabem_solution *solutions[1 + CONFIG_FROUDE_MOST];
-    igabem_options options[1 + CONFIG_FROUDE_MOST];
-    e->speeds = isnan(problem->config->speeds) ? 0 : problem->speeds;
-    options[0] = problem->solver;
-    for (size_t i = 0; i < e->speeds; i++)
-        options[1 + i] = problem->speed[i];
-    if (igabem_solve_many(body, 1 + e->speeds, options, solutions) != IGABEM_OK)
+    size_t n = 0;
+    settings[n++] = problem->solver;
+    for (size_t i = 0; i < problem->speeds && !isnan(problem->config->speeds); i++)
+        settings[n++] = problem->speed[i];
+    return n;
+}
+
+/* A view of the solutions and whom to pass it on to. */
+struct viewer {
+    evaluate_look look;
+    void *user_data;
+};
+
+static bool solve(const struct problem *problem, const igabem_hull *body, struct viewer viewer,
+                  struct evaluation *e)
+{
+    igabem_solution *solutions[SETTINGS_MOST];
+    igabem_options settings[SETTINGS_MOST];
+    size_t n = evaluate_settings(problem, settings);
+    e->speeds = n - 1;
+    if (igabem_solve_many(body, n, settings, solutions) != IGABEM_OK)
         return core_fail("solve: %s", igabem_last_error());
-    bool ok = keep(solutions, e);
-    for (size_t i = 0; i <= e->speeds; i++)
+    bool ok = keep(solutions, e) && (!viewer.look || viewer.look(viewer.user_data, solutions));
+    for (size_t i = 0; i < n; i++)
         igabem_solution_free(solutions[i]);
     return ok;
 }
 
 static void finish(const struct problem *problem, const struct design *design, double start,
-                   struct evaluation *e)
+                   struct viewer viewer, struct evaluation *e)
 {
     bool ok = design && measure(problem, design, e) && keep_limits(problem, e);
     double built = cli_seconds();
-    ok = ok && solve(problem, design->body, e);
+    ok = ok && solve(problem, design->body, viewer, e);
     e->geometry_seconds = built - start;
     e->solve_seconds = cli_seconds() - built;
     e->failed = !ok;
@@ -105,16 +118,17 @@ static void finish(const struct problem *problem, const struct design *design, d
         snprintf(e->reason, sizeof e->reason, "%s", core_sentence());
 }
 
-void evaluate(struct problem *problem, struct evaluation *e)
+void evaluate(struct problem *problem, struct evaluation *e, evaluate_look look, void *user_data)
 {
     struct design design;
     double start = cli_seconds();
     bool built = problem_build(problem, e->u, &design);
-    finish(problem, built ? &design : NULL, start, e);
+    finish(problem, built ? &design : NULL, start, (struct viewer){look, user_data}, e);
     design_free(&design);
 }
 
-void evaluate_parent(struct problem *problem, struct evaluation *e)
+void evaluate_parent(struct problem *problem, struct evaluation *e, evaluate_look look,
+                     void *user_data)
 {
-    finish(problem, &problem->parent, cli_seconds(), e);
+    finish(problem, &problem->parent, cli_seconds(), (struct viewer){look, user_data}, e);
 }

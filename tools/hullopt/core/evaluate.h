@@ -29,10 +29,21 @@ struct evaluation {
 void evaluation_start(uint64_t id, const char *phase, const double *u,
                       struct evaluation *evaluation);
 
+/* Settings of the solver that a design is valued with: the speed of the search first, and the
+ * others when the configuration bounds C_w there. Returns how many. */
+enum { SETTINGS_MOST = 1 + CONFIG_FROUDE_MOST };
+size_t evaluate_settings(const struct problem *problem, igabem_options settings[SETTINGS_MOST]);
+
+/* Looks at the solutions, one for each of these settings, before they are freed; false, with a
+ * sentence, fails the design. */
+typedef bool (*evaluate_look)(void *user_data, igabem_solution *const *solutions);
+
 /* Fills everything of an evaluation that was started. A design that cannot be evaluated is a
- * result, not an error. */
-void evaluate(struct problem *problem, struct evaluation *evaluation);
+ * result, not an error. look: NULL, nobody does. */
+void evaluate(struct problem *problem, struct evaluation *evaluation, evaluate_look look,
+              void *user_data);
 /* The parent, which is built already. */
-void evaluate_parent(struct problem *problem, struct evaluation *evaluation);
+void evaluate_parent(struct problem *problem, struct evaluation *evaluation, evaluate_look look,
+                     void *user_data);
 
 #endif

@@ -85,24 +85,35 @@ static bool sample_grid(struct problem *problem)
            core_fail("%s: %s", config->hull, nurbs_last_error());
 }
 
+static bool build_parent(struct problem *problem)
+{
+    return problem_build(problem, NULL, &problem->parent) ||
+           core_fail("%s: the parent cannot be built (%s)", problem->config->hull, core_sentence());
+}
+
 static bool prepare_parent(struct problem *problem)
 {
     const nurbs_grid *grid = problem->grid;
     if (nurbs_grid_create(nurbs_grid_rows(grid), nurbs_grid_columns(grid), nurbs_grid_points(grid),
                           &problem->moved) != NURBS_OK)
         return core_fail("%s", nurbs_last_error());
-    return problem_build(problem, NULL, &problem->parent) ||
-           core_fail("%s: the parent cannot be built (%s)", problem->config->hull, core_sentence());
+    return build_parent(problem);
 }
 
-static bool freeze(struct problem *problem)
+/* mesh: the spans of its density are taken; NULL: those that suit the parent. */
+static bool freeze(struct problem *problem, const igabem_options *mesh)
 {
     const struct config *config = problem->config;
-    problem->solver = config->solver;
+    igabem_options solver = config->solver;
+    if (mesh) {
+        solver.elements_u = mesh->elements_u;
+        solver.elements_v = mesh->elements_v;
+    }
+    problem->solver = solver;
     problem->speeds = config->verify_froudes;
     bool ok = igabem_options_freeze(problem->parent.body, &problem->solver) == IGABEM_OK;
     for (size_t i = 0; i < problem->speeds && ok; i++) {
-        problem->speed[i] = config->solver;
+        problem->speed[i] = solver;
         problem->speed[i].froude = config->verify_froude[i];
         ok = igabem_options_freeze(problem->parent.body, &problem->speed[i]) == IGABEM_OK;
     }
@@ -117,7 +128,8 @@ bool problem_read(const struct config *config, struct problem *problem)
     *problem = (struct problem){.config = config};
     bool ok = nurbs_hull_read(config->hull, &options, &problem->source) == NURBS_OK ||
               core_fail("%s", nurbs_last_error());
-    ok = ok && sample_grid(problem) && prepare_parent(problem) && freeze(problem);
+    ok = ok && sample_grid(problem) && prepare_parent(problem) && freeze(problem, NULL);
+    problem->is_solved = ok;
     if (!ok)
         problem_free(problem);
     return ok;
@@ -172,9 +184,53 @@ void problem_free(struct problem *problem)
     *problem = (struct problem){0};
 }
 
+/* The designs at both ends of every latent direction. */
+static bool make_extremes(struct problem *problem, size_t n, nurbs_grid **grids)
+{
+    const nurbs_grid *grid = problem->grid;
+    size_t modes = galv_model_modes(problem->model);
+    double *u = calloc(modes, sizeof *u);
+    bool ok = u || core_no_memory();
+    for (size_t k = 0; k < n && ok; k++) {
+        const double *bound =
+            k % 2 ? galv_model_upper(problem->model) : galv_model_lower(problem->model);
+        u[k / 2] = bound[k / 2];
+        ok = nurbs_grid_create(nurbs_grid_rows(grid), nurbs_grid_columns(grid),
+                               nurbs_grid_points(grid), &grids[k]) == NURBS_OK ||
+             core_fail("%s", nurbs_last_error());
+        ok = ok && (galv_displace(problem->model, u, nurbs_grid_edit(grids[k])) == GALV_OK ||
+                    core_fail("%s", galv_last_error()));
+        u[k / 2] = 0;
+    }
+    free(u);
+    return ok;
+}
+
+/* From here on every design, and the parent again, is built in one spline space, so that figures
+ * are smooth over the latent space. The density keeps the spans that suit the lighter parent. */
+static bool share_space(struct problem *problem)
+{
+    size_t n = 2 * galv_model_modes(problem->model);
+    nurbs_grid **grids = calloc(n, sizeof *grids);
+    bool ok = (grids || core_no_memory()) && make_extremes(problem, n, grids);
+    ok = ok && (nurbs_hull_share_space(problem->source, problem->grid, n,
+                                       (const nurbs_grid *const *)grids) == NURBS_OK ||
+                core_fail("%s: %s", problem->config->hull, nurbs_last_error()));
+    for (size_t k = 0; grids && k < n; k++)
+        nurbs_grid_free(grids[k]);
+    free(grids);
+    if (!ok)
+        return false;
+    design_free(&problem->parent);
+    const igabem_options mesh = problem->solver;
+    return build_parent(problem) && (!problem->is_solved || freeze(problem, &mesh));
+}
+
 bool problem_recall(struct problem *problem, galv_model *model, const double *gradient)
 {
     problem->model = model;
+    if (!share_space(problem))
+        return false;
     if (galv_limits_create(model, nurbs_grid_rows(problem->grid), nurbs_grid_columns(problem->grid),
                            design_nu_s(&problem->parent), &problem->limits) != GALV_OK ||
         (gradient && galv_limits_set_gradient(problem->limits, gradient) != GALV_OK))

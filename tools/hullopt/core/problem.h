@@ -24,8 +24,9 @@ struct problem {
     nurbs_grid *moved;    /* of the design at hand */
     struct design parent; /* built from its grid like every design */
     struct design best;   /* empty before problem_set_best(), and when nothing is better */
-    igabem_options solver; /* frozen on the parent */
-    size_t speeds;         /* the same at the speeds of the verification */
+    bool is_solved;       /* with these options, frozen on the parent */
+    igabem_options solver;
+    size_t speeds; /* the same at the speeds of the verification */
     igabem_options speed[CONFIG_FROUDE_MOST];
     galv_model *model;   /* NULL before problem_reduce() or problem_recall() */
     galv_limits *limits; /* of its latent points */

@@ -369,11 +369,14 @@ bool record_tell(struct record *record, const struct evaluation *e, const double
                       : bayesopt_tell_point_result(record->bo, e->u, &result, NULL));
 }
 
-static void read_evaluation(const bayesopt_point *point, struct evaluation *e)
+/* What was not asked for is the parent, which comes first, or a design of a descent. */
+static void read_evaluation(const bayesopt_point *point, bool first, struct evaluation *e)
 {
-    bool parent = point->phase == BAYESOPT_PHASE_EXTERNAL;
-    evaluation_start(parent ? 0 : point->id, parent ? "parent" : bayesopt_phase_name(point->phase),
-                     point->x, e);
+    const char *phase = first ? "parent"
+                        : point->phase == BAYESOPT_PHASE_EXTERNAL
+                            ? "descent"
+                            : bayesopt_phase_name(point->phase);
+    evaluation_start(first ? 0 : point->id, phase, point->x, e);
     e->failed = point->state == BAYESOPT_STATE_FAILED;
     e->cw = point->f;
     if (e->failed)
@@ -398,7 +401,7 @@ bool record_evaluations(const struct record *record, struct evaluation **list, s
         if (!done(bayesopt_get(record->bo, i, &point)))
             return false;
         if (point.state != BAYESOPT_STATE_PENDING)
-            read_evaluation(&point, &(*list)[(*n)++]);
+            read_evaluation(&point, i == 0, &(*list)[*n]), (*n)++;
     }
     return true;
 }

@@ -2,10 +2,17 @@
 
 #include "cli.h"
 #include "core/constraints.h"
+#include "core/descent.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+
+/* Designs that the search may evaluate, the parent among them. */
+static size_t budget(const struct config *config)
+{
+    return 1 + (config->method == SEARCH_BAYESIAN ? config->initial : 0) + config->iterations;
+}
 
 bool search_open(struct problem *problem, const char *path, struct record *record)
 {
@@ -17,7 +24,7 @@ bool search_open(struct problem *problem, const char *path, struct record *recor
     options.seed = config->search_seed;
     options.initial_kind = config->design;
     options.initial_n = config->initial;
-    options.max_evaluations = 1 + config->initial + config->iterations; /* 1: the parent */
+    options.max_evaluations = budget(config);
     options.strategy = config->strategy;
     options.n_input_constraints = limits_count(config);
     options.input_constraint = limits_evaluate;
@@ -35,16 +42,7 @@ bool search_open(struct problem *problem, const char *path, struct record *recor
     return false;
 }
 
-struct state {
-    struct problem *problem;
-    struct record *record;
-    const struct core_watch *watch;
-    struct evaluation parent;
-    double best;
-    size_t done, failed;
-};
-
-static bool tell(struct state *s, const struct evaluation *e)
+static bool tell(struct search *s, const struct evaluation *e)
 {
     double ratio[OUTCOME_MOST];
     outcome_ratios(s->problem->config, e, &s->parent, ratio);
@@ -52,7 +50,7 @@ static bool tell(struct state *s, const struct evaluation *e)
 }
 
 /* The parent is u = 0: told to the search before anything is asked. */
-static bool begin(struct state *s)
+static bool begin(struct search *s)
 {
     const struct config *config = s->problem->config;
     struct evaluation *list;
@@ -77,7 +75,7 @@ static bool begin(struct state *s)
     if (!zero)
         return core_no_memory();
     evaluation_start(0, "parent", zero, &s->parent);
-    evaluate_parent(s->problem, &s->parent);
+    evaluate_parent(s->problem, &s->parent, NULL, NULL);
     bool ok = s->parent.failed ? core_fail("%s: the parent cannot be evaluated (%s)", config->hull,
                                            s->parent.reason)
                                : tell(s, &s->parent);
@@ -88,52 +86,54 @@ static bool begin(struct state *s)
     return ok;
 }
 
-static void show(const struct state *s)
+void search_show(const struct search *s, const char *what)
 {
-    char detail[120];
-    size_t all = bayesopt_budget(s->record->bo);
-    snprintf(detail, sizeof detail, "%zu of %zu, %zu failed, best C_w %.4e (%+.1f %%)", s->done,
-             all, s->failed, s->best, 100 * (s->best / s->parent.cw - 1));
+    char detail[200];
+    size_t all = budget(s->problem->config);
+    snprintf(detail, sizeof detail, "%zu of %zu, %zu failed, best C_w %.4e (%+.1f %%)%s%s", s->done,
+             all, s->failed, s->best, 100 * (s->best / s->parent.cw - 1), what ? ", " : "",
+             what ? what : "");
     core_show(s->watch, "search", (double)s->done / (double)all, detail);
 }
 
 /* Figures and value are told at once: a session that dies leaves a point that is asked again. */
-static bool step(struct state *s, uint64_t id, const double *u, double propose_seconds)
+bool search_step(struct search *s, struct evaluation *e, evaluate_look look, void *user_data)
 {
-    struct evaluation e;
-    evaluation_start(id, NULL, u, &e);
-    e.propose_seconds = propose_seconds;
-    evaluate(s->problem, &e);
-    if (!tell(s, &e) || !record_update_session(s->record))
+    evaluate(s->problem, e, look, user_data);
+    if (!tell(s, e) || !record_update_session(s->record))
         return false;
     s->done++;
-    s->failed += e.failed;
-    if (outcome_allowed(s->problem->config, &e, &s->parent))
-        s->best = fmin(s->best, e.cw);
+    s->failed += e->failed;
+    if (outcome_allowed(s->problem->config, e, &s->parent))
+        s->best = fmin(s->best, e->cw);
     return true;
 }
 
-static bool loop(struct state *s, double *u)
+static bool loop(struct search *s, double *u)
 {
     for (;;) {
         uint64_t id;
-        show(s);
+        struct evaluation e;
+        search_show(s, NULL);
         double start = cli_seconds();
         bayesopt_status status = bayesopt_ask(s->record->bo, 1, u, &id);
         if (status > 0)
             return record_put_text(s->record, "stop", bayesopt_status_string(status));
         if (status < 0)
             return core_fail("%s: %s", s->problem->config->path, bayesopt_last_error());
-        if (!step(s, id, u, cli_seconds() - start))
+        evaluation_start(id, NULL, u, &e);
+        e.propose_seconds = cli_seconds() - start;
+        if (!search_step(s, &e, NULL, NULL))
             return false;
     }
 }
 
 bool search_run(struct problem *problem, struct record *record, const struct core_watch *watch)
 {
-    struct state s = {.problem = problem, .record = record, .watch = watch};
+    struct search s = {.problem = problem, .record = record, .watch = watch};
     double *u = malloc(galv_model_modes(problem->model) * sizeof *u);
-    bool ok = (u || core_no_memory()) && begin(&s) && loop(&s, u);
+    bool ok = (u || core_no_memory()) && begin(&s) &&
+              (problem->config->method == SEARCH_BAYESIAN ? loop(&s, u) : descent_run(&s, u));
     free(u);
     return ok;
 }

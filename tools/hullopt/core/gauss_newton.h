@@ -1,0 +1,60 @@
+/* Gauss-Newton search on what the solver sees rather than on C_w: wave residuals r_m of several
+ * settings, |r_m|^2 = C_w, and the velocities that make the pressure, all nearly linear in the
+ * shape. Each step differentiates them on a coarse mesh at the best design so far, whose own values
+ * are those of the fine mesh, and solves
+ *
+ *     min tau   s.t.  |r_m + J_m d|^2 / C_m <= offset_m + share_m tau   (settings m),
+ *                     pressure(z + Z d) / parent <= bound,   known limits,   box,   |d| <= radius
+ *
+ * (C_m of the parent). A design counts by its fine values: one that lowers the objective, or comes
+ * nearer to the limits for it, is where the next step starts; else what it breaks is tightened and
+ * the radius halved. */
+#ifndef HULLOPT_GAUSS_NEWTON_H
+#define HULLOPT_GAUSS_NEWTON_H
+
+#include <igabem/residual.h>
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* How C_w of a setting over that of the parent is bounded: offset + share tau. */
+struct gn_setting {
+    double offset, share; /* the objective: 0, 1; a limit b: b, 0; at least the part f of the gain:
+                             1 - f, f */
+};
+
+/* What the fine or the coarse mesh says of a design. */
+struct gn_sample {
+    double *residual; /* [settings][IGABEM_WAVE_RESIDUALS] */
+    double *value;    /* [settings] C_w, of the fine mesh by its adaptive integral */
+    size_t points;    /* of the pressure; 0: not bounded */
+    igabem_pressure_sample *point;
+    double pressure; /* C_w by pressure */
+};
+
+enum gn_answer { GN_VALUED, GN_FAILED, GN_STOP };
+
+struct gn_problem {
+    size_t n;
+    const double *lower, *upper; /* [n] */
+    size_t settings;
+    const struct gn_setting *setting;
+    size_t points;   /* samples of the pressure */
+    double pressure; /* bound of its ratio; NAN: none */
+    size_t limits;
+    /* Fills value[limits], <= 0 allowed; false: not known there. */
+    bool (*limit)(void *user_data, const double *x, double *value);
+    /* Fill a sample. GN_FAILED: there is no such design; GN_STOP: end the search. */
+    enum gn_answer (*coarse)(void *user_data, const double *x, struct gn_sample *sample);
+    enum gn_answer (*fine)(void *user_data, const double *x, struct gn_sample *sample);
+    /* A line now and then; may be NULL. */
+    void (*tell)(void *user_data, const char *sentence);
+    void *user_data;
+};
+
+/* Starts from x = 0, the parent, and ends when a step gains less than 0.2 % or fine() says stop.
+ * Fills x[n] with the best design within all limits. false: out of memory, or the parent has no
+ * value. */
+bool gn_run(const struct gn_problem *problem, double *x);
+
+#endif

@@ -1,0 +1,247 @@
+#include "core/gn_model.h"
+
+#include <math.h>
+#include <nlopt.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { R = IGABEM_WAVE_RESIDUALS, POINT = sizeof(igabem_pressure_sample) / sizeof(double) };
+static const double LIMIT_STEP = 1e-5; /* of the differences of the known limits, half widths */
+
+bool gn_model_create(const struct gn_problem *problem, struct gn_model *model)
+{
+    size_t n = problem->n, pressure = POINT * problem->points;
+    size_t work = R + 2 * pressure + n + 2 * problem->limits;
+    *model = (struct gn_model){.problem = problem};
+    model->jacobian = malloc(problem->settings * n * R * sizeof(double));
+    model->pressure = malloc((n * pressure + 1) * sizeof(double));
+    model->shift = calloc(2 * problem->settings + 1, sizeof(double));
+    model->work = malloc(work * sizeof(double));
+    if (model->jacobian && model->pressure && model->shift && model->work)
+        return true;
+    gn_model_free(model);
+    return false;
+}
+
+void gn_model_free(struct gn_model *model)
+{
+    free(model->jacobian);
+    free(model->pressure);
+    free(model->shift);
+    free(model->work);
+    *model = (struct gn_model){0};
+}
+
+void gn_model_differentiate(struct gn_model *model, size_t k, double step,
+                            const struct gn_sample *at, const struct gn_sample *moved)
+{
+    const struct gn_problem *p = model->problem;
+    for (size_t m = 0; m < p->settings; m++)
+        for (size_t i = 0; i < R; i++)
+            model->jacobian[(m * p->n + k) * R + i] =
+                (moved->residual[m * R + i] - at->residual[m * R + i]) / step;
+    const double *a = (const double *)at->point, *b = (const double *)moved->point;
+    for (size_t i = 0; i < POINT * p->points; i++)
+        model->pressure[k * POINT * p->points + i] = (b[i] - a[i]) / step;
+}
+
+/* Adds the columns of a Jacobian to a vector of `size` numbers. */
+static void advance(size_t n, size_t size, const double *jacobian, const double *d, double *vector)
+{
+    for (size_t k = 0; k < n; k++)
+        for (size_t i = 0; i < size && d[k] != 0; i++)
+            vector[i] += jacobian[k * size + i] * d[k];
+}
+
+static void project(size_t n, size_t size, const double *jacobian, const double *vector,
+                    double scale, double *gradient)
+{
+    for (size_t k = 0; k < n; k++) {
+        double sum = 0;
+        for (size_t i = 0; i < size; i++)
+            sum += vector[i] * jacobian[k * size + i];
+        gradient[k] = scale * sum;
+    }
+}
+
+/* C_w of setting m over that of the parent: the fine value, changed by what the model says. */
+static double ratio(const struct gn_model *model, size_t m, const double *d, double *gradient)
+{
+    size_t n = model->problem->n;
+    const double *base = model->base.residual + m * R, *jacobian = model->jacobian + m * n * R;
+    double *r = model->work, change = 0;
+    memcpy(r, base, R * sizeof *r);
+    advance(n, R, jacobian, d, r);
+    for (size_t i = 0; i < R; i++)
+        change += r[i] * r[i] - base[i] * base[i];
+    if (gradient)
+        project(n, R, jacobian, r, 2 / model->parent[m], gradient);
+    return (model->base.value[m] + change) / model->parent[m];
+}
+
+static double pressure_ratio(const struct gn_model *model, const double *d, double *gradient)
+{
+    const struct gn_problem *p = model->problem;
+    size_t size = POINT * p->points;
+    double *z = model->work + R, *slope = z + size;
+    memcpy(z, model->base.point, size * sizeof *z);
+    double before = igabem_pressure_sum(p->points, model->base.point, NULL);
+    advance(p->n, size, model->pressure, d, z);
+    double after = igabem_pressure_sum(p->points, (const igabem_pressure_sample *)z,
+                                       (igabem_pressure_sample *)slope);
+    if (gradient)
+        project(p->n, size, model->pressure, slope, 1 / model->parent_pressure, gradient);
+    return (model->base.pressure + after - before) / model->parent_pressure;
+}
+
+/* The variables of the step are d and, last, tau. */
+struct row {
+    const struct gn_model *model;
+    size_t setting;
+};
+
+static double objective(unsigned n, const double *x, double *gradient, void *data)
+{
+    (void)data;
+    for (unsigned k = 0; gradient && k < n; k++)
+        gradient[k] = k + 1 == n;
+    return x[n - 1];
+}
+
+static double setting_limit(unsigned n, const double *x, double *gradient, void *data)
+{
+    const struct row *row = data;
+    const struct gn_setting *setting = &row->model->problem->setting[row->setting];
+    if (gradient)
+        gradient[n - 1] = -setting->share;
+    return ratio(row->model, row->setting, x, gradient) + row->model->shift[row->setting] -
+           setting->offset - setting->share * x[n - 1];
+}
+
+static double pressure_limit(unsigned n, const double *x, double *gradient, void *data)
+{
+    const struct gn_model *model = data;
+    if (gradient)
+        gradient[n - 1] = 0;
+    return pressure_ratio(model, x, gradient) + model->shift[model->problem->settings] -
+           model->problem->pressure;
+}
+
+static void known_limits(unsigned limits, double *value, unsigned n, const double *x,
+                         double *gradient, void *data)
+{
+    const struct gn_model *model = data;
+    const struct gn_problem *p = model->problem;
+    double *at = model->work + R + 2 * POINT * p->points, *side = at + p->n;
+    for (size_t k = 0; k < p->n; k++)
+        at[k] = model->x[k] + x[k];
+    bool known = p->limit(p->user_data, at, value);
+    for (unsigned i = 0; gradient && i < limits; i++)
+        gradient[i * n + n - 1] = 0;
+    for (size_t k = 0; k < p->n && gradient; k++) {
+        double keep = at[k], step = LIMIT_STEP * (p->upper[k] - p->lower[k]) / 2;
+        for (int s = 0; s < 2; s++) {
+            at[k] = s ? keep + step : keep - step;
+            known = p->limit(p->user_data, at, side + (size_t)s * limits) && known;
+        }
+        at[k] = keep;
+        for (unsigned i = 0; i < limits; i++)
+            gradient[i * n + k] = (side[limits + i] - side[i]) / (2 * step);
+    }
+    for (unsigned i = 0; i < limits && !known; i++)
+        value[i] = HUGE_VAL;
+}
+
+static void set_box(const struct gn_model *model, double radius, nlopt_opt step, double *bound)
+{
+    const struct gn_problem *p = model->problem;
+    for (int side = 0; side < 2; side++) {
+        for (size_t k = 0; k < p->n; k++) {
+            double reach = radius * (p->upper[k] - p->lower[k]) / 2;
+            bound[k] = side ? fmax(0, fmin(p->upper[k] - model->x[k], reach))
+                            : fmin(0, fmax(p->lower[k] - model->x[k], -reach));
+        }
+        bound[p->n] = side ? HUGE_VAL : 0;
+        if (side)
+            nlopt_set_upper_bounds(step, bound);
+        else
+            nlopt_set_lower_bounds(step, bound);
+    }
+}
+
+/* The largest ratio of the settings that make the objective. */
+static double worst(const struct gn_model *model, const double *d)
+{
+    const struct gn_problem *p = model->problem;
+    double most = 0;
+    for (size_t m = 0; m < p->settings; m++)
+        if (p->setting[m].share == 1 && p->setting[m].offset == 0)
+            most = fmax(most, ratio(model, m, d, NULL));
+    return most;
+}
+
+static bool add_rows(const struct gn_model *model, nlopt_opt step, struct row *rows)
+{
+    enum { LIMITS = 16 };
+    const struct gn_problem *p = model->problem;
+    const double tolerance = 1e-6, known = 1e-9; /* of ratios; of limits that hold exactly */
+    double each[LIMITS];
+    bool ok = p->limits <= LIMITS;
+    for (size_t m = 0; m < p->settings && ok; m++) {
+        rows[m] = (struct row){model, m};
+        ok = nlopt_add_inequality_constraint(step, setting_limit, &rows[m], tolerance) > 0;
+    }
+    if (ok && !isnan(p->pressure))
+        ok = nlopt_add_inequality_constraint(step, pressure_limit, (void *)model, tolerance) > 0;
+    for (size_t i = 0; i < p->limits && ok; i++)
+        each[i] = known;
+    if (ok && p->limits)
+        ok = nlopt_add_inequality_mconstraint(step, (unsigned)p->limits, known_limits,
+                                              (void *)model, each) > 0;
+    return ok;
+}
+
+/* By how much the step breaks its rows. */
+static double violation(const struct gn_model *model, const double *x, double *limits)
+{
+    const struct gn_problem *p = model->problem;
+    unsigned n = (unsigned)p->n + 1;
+    double most = 0;
+    for (size_t m = 0; m < p->settings; m++)
+        most = fmax(most, setting_limit(n, x, NULL, &(struct row){model, m}));
+    if (!isnan(p->pressure))
+        most = fmax(most, pressure_limit(n, x, NULL, (void *)model));
+    if (p->limits)
+        known_limits((unsigned)p->limits, limits, n, x, NULL, (void *)model);
+    for (size_t i = 0; i < p->limits; i++)
+        most = fmax(most, limits[i]);
+    return most;
+}
+
+double gn_model_minimise(const struct gn_model *model, double radius, double *d)
+{
+    enum { EVALUATIONS = 400 };
+    const double broken = 1e-4; /* a step that is no solution */
+    /* tau starts clear of its rows: on them SLSQP may take its first step for its last. */
+    const double slack = 1.5;
+    const struct gn_problem *p = model->problem;
+    nlopt_opt step = nlopt_create(NLOPT_LD_SLSQP, (unsigned)p->n + 1);
+    struct row *rows = malloc(p->settings * sizeof *rows);
+    double *x = calloc(2 * (p->n + 1) + p->limits, sizeof *x), promised = NAN, tau;
+    if (step && rows && x && add_rows(model, step, rows)) {
+        set_box(model, radius, step, x + p->n + 1);
+        nlopt_set_min_objective(step, objective, NULL);
+        nlopt_set_xtol_rel(step, 1e-7);
+        nlopt_set_maxeval(step, EVALUATIONS);
+        x[p->n] = slack * worst(model, x);
+        nlopt_optimize(step, x, &tau);
+        if (violation(model, x, x + 2 * (p->n + 1)) <= broken) {
+            memcpy(d, x, p->n * sizeof *d);
+            promised = worst(model, d);
+        }
+    }
+    nlopt_destroy(step);
+    free(rows);
+    free(x);
+    return promised;
+}
