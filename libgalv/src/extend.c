@@ -242,6 +242,9 @@ static galv_status extend(const galv_model *old, const galv_job *job, extension_
         new->centred = old->centred;
         new->method = method;
         new->truncation = tail *n / total;
+        /* How far the share of fresh samples is below falls like 1/N. */
+        new->confidence.retained_fresh =
+            new->retained - (old->retained - old->confidence.retained_fresh) * n / total;
         new->confidence.retained_error = old->confidence.retained_error *sqrt(n / total);
         new->confidence.angle = subspace_angle(old, new);
         status = carry_over(old, new);

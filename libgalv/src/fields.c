@@ -37,6 +37,7 @@ static const struct row {
     {"trace", GALV_TYPE_DOUBLE, AT(trace), 0, ONE, ONE, false},
     {"trace_geometry", GALV_TYPE_DOUBLE, AT(trace_geometry), 0, ONE, ONE, false},
     {"truncation", GALV_TYPE_DOUBLE, AT(truncation), 0, ONE, ONE, false},
+    {"retained_fresh", GALV_TYPE_DOUBLE, AT(confidence.retained_fresh), 0, ONE, ONE, true},
     {"retained_error", GALV_TYPE_DOUBLE, AT(confidence.retained_error), 0, ONE, ONE, true},
     {"subspace_angle", GALV_TYPE_DOUBLE, AT(confidence.angle), 0, ONE, ONE, true},
     {VECTOR(eigenvalues, AT(spectrum))},
@@ -181,6 +182,10 @@ static const double MOST_SIZE = 9007199254740992;
 
 static galv_status read_number(const struct row *row, const galv_field *field, galv_model *model)
 {
+    if (!field->values && row->unknown) { /* files from before there was such a figure */
+        *(double *)member(model, row) = NAN;
+        return GALV_OK;
+    }
     if (!field->values || (field->type != row->type && field->type != GALV_TYPE_DOUBLE))
         return galv_fail(GALV_ERROR_ARGUMENT, "'%s' is %s", row->name,
                          field->values ? "of another type" : "missing");

@@ -98,7 +98,7 @@ static void test_extension_refuses(void)
     galv_shape_free(shape);
 }
 
-enum { FIELDS = 29 };
+enum { FIELDS = 30 };
 
 /* All fields of a model; the place of one of them. */
 static void take_fields(const galv_model *model, galv_field *fields)
@@ -183,7 +183,7 @@ static void test_restore_refuses_by_name(void)
     double half = 0.5, *values = malloc(galv_model_spectrum(model) * sizeof *values);
     take_fields(model, fields);
     named(fields, "modes")->values = &modes;
-    refuses(fields, "29000 modes");
+    refuses(fields, "30000 modes");
     take_fields(model, fields);
     named(fields, "vectors")->values = NULL;
     refuses(fields, "'vectors' is missing");

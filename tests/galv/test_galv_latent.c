@@ -223,6 +223,55 @@ static void test_confidence_matches_repetition(void)
     galv_shape_free(shape);
 }
 
+/* Share of the variance of fresh samples that the modes hold, by projecting them. */
+static double fresh_share(const galv_shape *shape, const galv_model *model, size_t first)
+{
+    enum { FRESH = 2000 };
+    double x[FUNCTIONS], d[3 * POINTS], u[FUNCTIONS], kept = 0, all = 0;
+    for (size_t r = first; r < first + FRESH; r++) {
+        galv_uniform_sample(77, r, FUNCTIONS, galv_shape_lower(shape), galv_shape_upper(shape), x);
+        galv_shape_displace(shape, POINTS, grid, x, d);
+        galv_project(model, d, u);
+        for (size_t k = 0; k < galv_model_modes(model); k++)
+            kept += u[k] * u[k];
+        for (size_t i = 0; i < (size_t)3 * POINTS; i++)
+            all += d[i] * d[i];
+    }
+    return kept / all;
+}
+
+/* The share stated for fresh samples is theirs within its error, from N = 20 on; that of the
+ * samples themselves is not. */
+static void test_fresh_samples(void)
+{
+    enum { BUILDS = 15, SIZES = 4 };
+    static const size_t count[SIZES] = {20, 30, 60, 200};
+    galv_shape *shape = fixture_shape(GALV_COMBINATION_RECURSIVE, 0.03);
+    for (size_t s = 0; s < SIZES; s++) {
+        size_t within = 0, far = 0;
+        double bias = 0, flattery = 0, error = 0;
+        for (uint64_t b = 0; b < BUILDS; b++) {
+            galv_model *model = build(shape, count[s], 1000 * count[s] + b, NULL);
+            galv_confidence c = galv_model_confidence(model);
+            double truth = fresh_share(shape, model, 2000 * b);
+            within += fabs(c.retained_fresh - truth) <= 2 * c.retained_error;
+            far += fabs(c.retained_fresh - truth) > 4 * c.retained_error;
+            bias += (c.retained_fresh - truth) / BUILDS;
+            flattery += (galv_model_retained(model) - truth) / BUILDS;
+            error += c.retained_error / BUILDS;
+            galv_model_free(model);
+        }
+        CU_ASSERT_TRUE(within >= 12);
+        CU_ASSERT_EQUAL(far, 0);
+        CU_ASSERT_TRUE(fabs(bias) < error);
+        CU_ASSERT_TRUE(count[s] > 30 || flattery > 3 * error);
+        if (within < 12 || far || fabs(bias) >= error)
+            fprintf(stderr, "N = %zu: %zu within 2, %zu beyond 4, bias %.4f, error %.4f, %.4f\n",
+                    count[s], within, far, bias, error, flattery);
+    }
+    galv_shape_free(shape);
+}
+
 /* More samples, smaller figures: quarter the error for sixteen times the samples, within sampling
  * noise. */
 static void test_confidence_shrinks(void)
@@ -247,6 +296,7 @@ static const struct check_case cases[] = {
     {"back-mapping returns the parameters", test_backmap_returns_parameters},
     {"back-mapping finds a bounded minimum", test_backmap_is_a_bounded_minimum},
     {"confidence agrees with repetition", test_confidence_matches_repetition},
+    {"the share of fresh samples", test_fresh_samples},
     {"confidence grows with samples", test_confidence_shrinks},
 };
 

@@ -57,8 +57,9 @@ static int print_text(const struct model_file *file)
                galv_model_coordinates(m) - 3 * galv_model_points(m),
                100 * galv_model_retained_geometry(m));
     if (isfinite(galv_model_confidence(m).retained_error))
-        printf("\nstandard error of the retained share %.3f %%, greatest angle to the modes of %s: "
-               "%.2f degrees",
+        printf("\n%.2f +- %.2f %% of the variance of fresh samples\n"
+               "greatest angle to the modes of %s: %.2f degrees",
+               100 * galv_model_confidence(m).retained_fresh,
                100 * galv_model_confidence(m).retained_error,
                galv_model_truncation(m) > 0 ? "the model extended" : "half the samples",
                galv_model_confidence(m).angle * 180 / 3.14159265358979323846);

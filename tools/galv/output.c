@@ -62,6 +62,7 @@ json_t *json_model(const galv_model *m)
         {"modes", json_whole(modes)},
         {"retained", json_number(galv_model_retained(m))},
         {"retained_geometry", json_number(galv_model_retained_geometry(m))},
+        {"retained_fresh", json_number(confidence.retained_fresh)},
         {"retained_error", json_number(confidence.retained_error)},
         {"subspace_angle", json_number(confidence.angle)},
         {"trace", json_number(galv_model_trace(m))},

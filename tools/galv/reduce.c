@@ -264,9 +264,10 @@ static int print_text(const struct reduction *r)
     printf("%zu modes retain %.3f %% of the variance %.6g m^2", galv_model_modes(model),
            100 * galv_model_retained(model), galv_model_trace(model));
     if (isfinite(confidence.retained_error))
-        printf(" (standard error %.3f %%)\ngreatest angle to the modes of half the samples: %.2f "
-               "degrees",
-               100 * confidence.retained_error, confidence.angle * 180 / 3.14159265358979323846);
+        printf("\n%.2f +- %.2f %% of the variance of fresh samples\n"
+               "greatest angle to the modes of half the samples: %.2f degrees",
+               100 * confidence.retained_fresh, 100 * confidence.retained_error,
+               confidence.angle * 180 / 3.14159265358979323846);
     if (r->extra.count)
         printf("\n%.3f %% of the variance of the points alone",
                100 * galv_model_retained_geometry(model));

@@ -230,9 +230,12 @@ GALV_API const double *galv_model_lower(const galv_model *model);
 GALV_API const double *galv_model_upper(const galv_model *model);
 /** @} */
 
-/** Whether N was enough. Both figures are NaN for N < 20. */
+/** Whether N was enough. All figures are NaN for N < 20. */
 typedef struct galv_confidence {
-    double retained_error; /**< standard error of the retained share (jackknife over ten groups) */
+    double retained_fresh; /**< share of the variance of fresh samples that the modes retain, by
+                                cross-validation over ten groups: galv_model_retained() tells of the
+                                samples that the modes were fitted to, and flatters a small N */
+    double retained_error; /**< standard error of that share */
     double angle; /**< greatest principal angle, radians, between the modes of every other sample
                      and those of all: for independent samples also the size of the angle between
                      the modes found and those of infinitely many samples */
