@@ -153,8 +153,9 @@ static galv_status linearise(search *s, double *square)
 }
 
 /* Minimises the damped quadratic model within the bounds: parameters that the free solution takes
- * beyond a bound are pinned there and the rest solved again. s->try is the minimiser. */
-static bool solve_bounded(search *s, double damping)
+ * beyond a bound are pinned there and the rest solved again. s->try is the minimiser; *solved is
+ * false when the matrix is not positive definite and wants more damping. */
+static galv_status solve_bounded(search *s, double damping, bool *solved)
 {
     size_t n = s->n;
     const double *lower = galv_shape_lower(s->shape), *upper = galv_shape_upper(s->shape);
@@ -170,7 +171,7 @@ static bool solve_bounded(search *s, double damping)
             if (!s->pinned[i])
                 s->free_of[nfree++] = i;
         if (nfree == 0)
-            return true;
+            return GALV_OK;
         for (size_t c = 0; c < nfree; c++) {
             size_t j = s->free_of[c];
             double g = s->gradient[j];
@@ -182,9 +183,11 @@ static bool solve_bounded(search *s, double damping)
                 s->system[c * nfree + r] = s->normal[j * n + s->free_of[r]];
             s->system[c * nfree + c] += damping;
         }
-        if (LAPACKE_dposv(LAPACK_COL_MAJOR, 'L', (lapack_int)nfree, 1, s->system, (lapack_int)nfree,
-                          s->right, (lapack_int)nfree))
-            return false;
+        lapack_int info = LAPACKE_dposv(LAPACK_COL_MAJOR, 'L', (lapack_int)nfree, 1, s->system,
+                                        (lapack_int)nfree, s->right, (lapack_int)nfree);
+        *solved = info == 0;
+        if (info)
+            return info > 0 ? GALV_OK : galv_lapack(info, "step of the back-mapping");
         bool beyond = false;
         for (size_t c = 0; c < nfree; c++) {
             size_t j = s->free_of[c];
@@ -194,7 +197,7 @@ static bool solve_bounded(search *s, double damping)
                 s->pinned[j] = beyond = true;
         }
         if (!beyond)
-            return true;
+            return GALV_OK;
     }
 }
 
@@ -212,7 +215,11 @@ static galv_status minimise(search *s, double *square)
             damping = 1e-6 * largest;
         double trial = INFINITY;
         while (damping <= 1e12 * largest) {
-            if (solve_bounded(s, damping)) {
+            bool solved = true;
+            status = solve_bounded(s, damping, &solved);
+            if (status)
+                return status;
+            if (solved) {
                 status = evaluate(s, 1, s->try, s->trial_row);
                 if (status)
                     return status;

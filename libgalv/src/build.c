@@ -10,6 +10,8 @@
 
 void galv_options_init(galv_options *options)
 {
+    if (!options)
+        return;
     *options = (galv_options){.variance = 0.95,
                               .spectrum = 64,
                               .method = GALV_METHOD_AUTO,

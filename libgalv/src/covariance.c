@@ -1,6 +1,5 @@
 /* The covariance side: the active x active matrix of eq. 6, accumulated block by block. */
 #include "error.h"
-#include "rank_update.h"
 #include "spectrum.h"
 
 #include <cblas.h>
@@ -37,10 +36,11 @@ static galv_status accumulate(galv_stream *stream, covariance *matrix, galv_sums
         if (status)
             return status;
         galv_sums_add(sums, stream, count);
-        status =
-            galv_rank_update(matrix->order, count, 1 / (double)samples, stream->rows, matrix->c);
-        if (!status)
-            status = galv_stream_report(stream, first + count);
+        blasint order = (blasint)matrix->order;
+        if (order)
+            cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, order, (blasint)count,
+                        1 / (double)samples, stream->rows, order, 1, matrix->c, order);
+        status = galv_stream_report(stream, first + count);
         if (status)
             return status;
     }

@@ -41,11 +41,7 @@ galv_status galv_eigen_dense(size_t n, double *a, size_t nev, double *values, do
             reverse_columns(vectors, n, nev);
         }
     }
-    if (info == LAPACK_WORK_MEMORY_ERROR)
-        return galv_fail(GALV_ERROR_MEMORY, "eigenvectors of a matrix of order %zu", n);
-    if (info)
-        return galv_fail(GALV_ERROR_NUMERIC, "eigenvalues of a matrix of order %zu: dsyevd gave %d",
-                         n, (int)info);
-    reverse(values, n);
-    return GALV_OK;
+    if (!info)
+        reverse(values, n);
+    return galv_lapack(info, "eigenvalues of a symmetric matrix");
 }

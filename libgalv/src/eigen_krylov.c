@@ -82,7 +82,6 @@ static galv_status orthonormalise(const lanczos *l, size_t width, double *x, dou
     size_t n = l->n, most = width < n ? width : n;
     lapack_int *pivot = calloc(width, sizeof *pivot);
     double *tau = malloc(most * sizeof *tau);
-    galv_status status = GALV_OK;
     lapack_int info = pivot && tau ? LAPACKE_dgeqp3(LAPACK_COL_MAJOR, (lapack_int)n,
                                                     (lapack_int)width, x, (lapack_int)n, pivot, tau)
                                    : LAPACK_WORK_MEMORY_ERROR;
@@ -97,13 +96,9 @@ static galv_status orthonormalise(const lanczos *l, size_t width, double *x, dou
             info = LAPACKE_dorgqr(LAPACK_COL_MAJOR, (lapack_int)n, (lapack_int)*rank,
                                   (lapack_int)*rank, x, (lapack_int)n, tau);
     }
-    if (info == LAPACK_WORK_MEMORY_ERROR)
-        status = galv_fail(GALV_ERROR_MEMORY, "orthonormal block of %zu vectors", width);
-    else if (info)
-        status = galv_fail(GALV_ERROR_NUMERIC, "QR factorisation of a block gave %d", (int)info);
     free(pivot);
     free(tau);
-    return status;
+    return galv_lapack(info, "orthonormal block of vectors");
 }
 
 /* Makes w the next block: orthogonal to V and orthonormal, with w_old = w coupling + V(...).

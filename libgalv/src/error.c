@@ -1,5 +1,6 @@
 #include "error.h"
 
+#include <lapacke.h>
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -34,4 +35,13 @@ galv_status galv_fail(galv_status code, const char *format, ...)
     vsnprintf(last_error, sizeof last_error, format, args);
     va_end(args);
     return code;
+}
+
+galv_status galv_lapack(int info, const char *doing)
+{
+    if (info == 0)
+        return GALV_OK;
+    if (info == LAPACK_WORK_MEMORY_ERROR || info == LAPACK_TRANSPOSE_MEMORY_ERROR)
+        return galv_fail(GALV_ERROR_MEMORY, "%s: no memory for the work", doing);
+    return galv_fail(GALV_ERROR_NUMERIC, "%s: LAPACK gave %d", doing, info);
 }

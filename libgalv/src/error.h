@@ -7,4 +7,7 @@
 __attribute__((format(printf, 2, 3))) galv_status galv_fail(galv_status code, const char *format,
                                                             ...);
 
+/* What a call of LAPACKE that returned info means: GALV_OK for 0. `doing` is what it was for. */
+galv_status galv_lapack(int info, const char *doing);
+
 #endif

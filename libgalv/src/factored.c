@@ -64,9 +64,7 @@ static galv_status factor(size_t active, size_t n, const double *a, double *qr, 
         info = LAPACKE_dorgqr(LAPACK_COL_MAJOR, rows, columns, columns, qr, rows, tau);
     }
     free(tau);
-    return info ? galv_fail(GALV_ERROR_NUMERIC, "QR factorisation of the functions gave %d",
-                            (int)info)
-                : GALV_OK;
+    return galv_lapack(info, "QR factorisation of the functions");
 }
 
 /* Column i of qr: function i on the active coordinates, scaled. */

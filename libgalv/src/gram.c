@@ -84,9 +84,7 @@ static galv_status orthonormalise(size_t n, size_t known, double *w)
         info = LAPACKE_dorgqr(LAPACK_COL_MAJOR, (lapack_int)n, (lapack_int)known, (lapack_int)known,
                               w, (lapack_int)n, tau);
     free(tau);
-    return info ? galv_fail(GALV_ERROR_NUMERIC, "QR factorisation of eigenvectors gave %d",
-                            (int)info)
-                : GALV_OK;
+    return galv_lapack(info, "QR factorisation of the eigenvectors");
 }
 
 static galv_status back_to_coordinates(galv_stream *stream, const double *v,

@@ -182,9 +182,9 @@ static galv_status regress(latent_pass *pass, galv_model *model)
             cxu[k * n + i] =
                 cxu[k * n + i] / samples - pass->sum_x[i] / samples * (pass->sum_u[k] / samples);
     lapack_int info = LAPACKE_dpotrf(LAPACK_COL_MAJOR, 'L', (lapack_int)m, cuu, (lapack_int)m);
-    if (info)
-        return galv_fail(GALV_ERROR_NUMERIC,
-                         "covariance of the latent coordinates gave %d in dpotrf", (int)info);
+    galv_status status = galv_lapack(info, "covariance of the latent coordinates");
+    if (status)
+        return status;
     /* B = Cxu Cuu^-1 by two triangular solves from the right. */
     cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, (blasint)n,
                 (blasint)m, 1, cuu, (blasint)m, cxu, (blasint)n);
@@ -264,11 +264,9 @@ static galv_status greatest_angle(size_t pairs, size_t m, const double *y, doubl
         memcpy(block + c * below, y + c * pairs + m, below * sizeof *block);
     lapack_int info = LAPACKE_dgesdd(LAPACK_COL_MAJOR, 'N', (lapack_int)below, (lapack_int)m, block,
                                      (lapack_int)below, values, NULL, 1, NULL, 1);
-    if (info)
-        return galv_fail(info == LAPACK_WORK_MEMORY_ERROR ? GALV_ERROR_MEMORY : GALV_ERROR_NUMERIC,
-                         "angle between subspaces: dgesdd gave %d", (int)info);
-    *angle = asin(fmin(values[0], 1));
-    return GALV_OK;
+    if (!info)
+        *angle = asin(fmin(values[0], 1));
+    return galv_lapack(info, "angle between subspaces");
 }
 
 /* What the modes will retain of fresh samples. Tenfold cross-validation tells it for modes found

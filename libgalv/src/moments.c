@@ -157,6 +157,8 @@ static int evaluate(void *user_data, size_t npoints, const double *xyz, double *
 
 galv_extra galv_moments_extra(galv_moment_set *set)
 {
+    if (!set)
+        return (galv_extra){.count = 0};
     size_t count = galv_moments_count(set->order);
     if (set->section_stride && set->section_first < set->sections)
         count += (1 + (set->sections - 1 - set->section_first) / set->section_stride) *

@@ -60,13 +60,15 @@ galv_sampling galv_uniform(size_t count, uint64_t seed)
 
 galv_sampling galv_samples(size_t count, const double *x)
 {
-    return (galv_sampling){.count = count, .first = 0, .seed = 0, .x = x};
+    return (galv_sampling){.count = x ? count : 0, .first = 0, .seed = 0, .x = x};
 }
 
 void galv_uniform_sample(uint64_t seed, size_t index, size_t n, const double *lower,
                          const double *upper, double *x)
 {
     galv_random random;
+    if (!lower || !upper || !x)
+        return;
     galv_random_start(&random, seed, index);
     for (size_t i = 0; i < n; i++) {
         double t = galv_random_uniform(&random);

@@ -40,22 +40,22 @@ void galv_shape_free(galv_shape *shape)
 
 size_t galv_shape_parameters(const galv_shape *shape)
 {
-    return shape->n;
+    return shape ? shape->n : 0;
 }
 
 const double *galv_shape_lower(const galv_shape *shape)
 {
-    return shape->lower;
+    return shape ? shape->lower : NULL;
 }
 
 const double *galv_shape_upper(const galv_shape *shape)
 {
-    return shape->upper;
+    return shape ? shape->upper : NULL;
 }
 
 bool galv_shape_is_linear(const galv_shape *shape)
 {
-    return shape->class->linear;
+    return shape && shape->class->linear;
 }
 
 galv_status galv_points_check(size_t npoints, const double *xyz)

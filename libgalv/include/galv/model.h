@@ -35,10 +35,11 @@ typedef struct galv_sampling {
  * only: not on N, not on the number of threads, not on the order of evaluation. */
 GALV_API galv_sampling galv_uniform(size_t count, uint64_t seed);
 
-/** The caller's N rows of n parameters. */
+/** The caller's N rows of n parameters; none for NULL, which galv_build() refuses. */
 GALV_API galv_sampling galv_samples(size_t count, const double *x);
 
-/** Fills x (n) with sample `index` of the uniform stream over [lower, upper]. */
+/** Fills x (n) with sample `index` of the uniform stream over [lower, upper]; nothing
+ * when one of the three is NULL. */
 GALV_API void galv_uniform_sample(uint64_t seed, size_t index, size_t n, const double *lower,
                                   const double *upper, double *x);
 

@@ -52,7 +52,7 @@ typedef struct galv_moment_set {
 } galv_moment_set;
 
 /** The moments of a set as appended quantities. set: borrowed, must outlive the result. The weights
- * are left NULL. */
+ * are left NULL. NULL: no quantities. */
 GALV_API galv_extra galv_moments_extra(galv_moment_set *set);
 
 #ifdef __cplusplus

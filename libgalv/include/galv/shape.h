@@ -115,10 +115,10 @@ GALV_API galv_status galv_shape_fields(size_t n, size_t npoints, const double *f
 /** NULL is allowed. */
 GALV_API void galv_shape_free(galv_shape *shape);
 
-/** Number of parameters n. */
+/** Number of parameters n; 0 for NULL. */
 GALV_API size_t galv_shape_parameters(const galv_shape *shape);
 
-/** The n lower (upper) bounds of the parameters. Borrowed from the shape. */
+/** The n lower (upper) bounds of the parameters. Borrowed from the shape; NULL for NULL. */
 GALV_API const double *galv_shape_lower(const galv_shape *shape);
 GALV_API const double *galv_shape_upper(const galv_shape *shape);
 
