@@ -432,7 +432,83 @@ static void chine_of_section_curves(void)
         nurbs_curve_free(sections[i]);
 }
 
+/* Plane sections at x = 0 ... 5 of two straight lines each, deck edge to chine to keel, whose
+ * corner wanders along the parameter. */
+static void corners_that_wander(void)
+{
+    enum { N = 6 };
+    nurbs_curve *section[N];
+    for (int k = 0; k < N; k++) {
+        const double t = 0.4 + 0.01 * k, knots[11] = {0, 0, 0, 0, t, t, t, 1, 1, 1, 1},
+                     corner[3][3] = {{k, 3 + 0.1 * k, 2}, {k, 3, -1}, {k, 0, -2}};
+        double points[21];
+        for (int i = 0; i < 7; i++)
+            for (int d = 0; d < 3; d++) {
+                const double *a = corner[i / 3 < 2 ? i / 3 : 1], *b = a + 3;
+                points[3 * i + d] = a[d] + (b[d] - a[d]) * (i - (i < 6 ? i / 3 * 3 : 3)) / 3.0;
+            }
+        CU_ASSERT_EQUAL_FATAL(nurbs_curve_create(3, 7, knots, points, NULL, &section[k]), NURBS_OK);
+    }
+    for (double tolerance = 1e-2; tolerance > 5e-6; tolerance /= 10) {
+        nurbs_surface *surface = NULL;
+        double area, worst = 0;
+        CU_ASSERT_EQUAL_FATAL(
+            nurbs_skin_curves(N, (const nurbs_curve *const *)section, NULL, 3, tolerance, &surface),
+            NURBS_OK);
+        CU_ASSERT_EQUAL(nurbs_surface_area(surface, &area, NULL), NURBS_OK);
+        CHECK_RELATIVE(area, 30.9, 1e-2);
+        const double *net = nurbs_surface_points(surface);
+        for (size_t i = 0; i < nurbs_surface_size(surface, 0) * nurbs_surface_size(surface, 1); i++)
+            CU_ASSERT(net[3 * i] > -0.5 && net[3 * i] < 5.5 && net[3 * i + 1] > -0.5 &&
+                      net[3 * i + 1] < 4 && fabs(net[3 * i + 2]) < 2.5);
+        for (int k = 0; k < N; k++)
+            for (int i = 0; i <= 97; i++) {
+                double u = i / 97.0, p[3], uv[2], away;
+                CU_ASSERT_EQUAL(nurbs_curve_eval(section[k], 0, 1, &u, p), NURBS_OK);
+                CU_ASSERT_EQUAL(nurbs_surface_closest(surface, 1, p, uv, &away), NURBS_OK);
+                worst = fmax(worst, away);
+            }
+        CHECK_CLOSE(worst, 0, tolerance);
+        nurbs_surface_free(surface);
+    }
+    for (int k = 0; k < N; k++)
+        nurbs_curve_free(section[k]);
+}
+
+/* Sections with a thin skeg below a broad body: the cubic through them reaches far across the
+ * centre plane, unless the corners are named. */
+static void light_skin_keeps_its_tolerance(void)
+{
+    enum { ROWS = 7, COLUMNS = 9 };
+    nurbs_grid *grid;
+    nurbs_surface *surface = NULL;
+    double bound, worst = 0;
+    CU_ASSERT_EQUAL_FATAL(nurbs_grid_create(ROWS, COLUMNS, NULL, &grid), NURBS_OK);
+    for (int i = 0; i < ROWS; i++)
+        for (int j = 0; j < COLUMNS; j++) {
+            double s = i / (ROWS - 1.0), *p = nurbs_grid_edit(grid) + 3 * (i * COLUMNS + j);
+            p[0] = 40 * s;
+            p[1] = j < 4 ? 4 * sin(s * 3.14159265358979323846) : j == COLUMNS - 1 ? 0 : 0.01;
+            p[2] = 4 - 0.5 * j;
+        }
+    CU_ASSERT_EQUAL(nurbs_skin_light(grid, NULL, 1e-3, &surface, &bound), NURBS_ERROR_NUMERIC);
+    CU_ASSERT_PTR_NULL(surface);
+    CU_ASSERT_PTR_NOT_NULL(strstr(nurbs_last_error(), "overshoots the centre plane"));
+    CU_ASSERT_EQUAL_FATAL(nurbs_skin_light(grid, NULL, 2, &surface, &bound), NURBS_OK);
+    const double *points = nurbs_grid_points(grid);
+    for (size_t k = 0; k < ROWS * COLUMNS; k++) {
+        double uv[2], away;
+        CU_ASSERT_EQUAL(nurbs_surface_closest(surface, 1, points + 3 * k, uv, &away), NURBS_OK);
+        worst = fmax(worst, away);
+    }
+    CU_ASSERT(worst > 1e-3 && worst <= bound && bound <= 2 && lowest_y(surface, 101) > -1e-9);
+    nurbs_surface_free(surface);
+    nurbs_grid_free(grid);
+}
+
 static const struct check_case cases[] = {
+    {"light skin keeps its tolerance", light_skin_keeps_its_tolerance},
+    {"corners that wander", corners_that_wander},
     {"chine of a prism", chine_of_a_prism},
     {"chine that fades", chine_that_fades},
     {"chine of section curves", chine_of_section_curves},

@@ -107,57 +107,27 @@ static int report(const nurbs_surface *surface, double worst, const struct reque
     return CLI_OK;
 }
 
-static bool is_half_hull(const nurbs_grid *grid)
-{
-    const double *points = nurbs_grid_points(grid);
-    size_t n = nurbs_grid_rows(grid) * nurbs_grid_columns(grid);
-    for (size_t k = 0; k < n; k++)
-        if (points[3 * k + 1] < 0)
-            return false;
-    return true;
-}
-
-/* Fewer control points, and y >= 0 where all points have it. */
-static nurbs_status lighten(const nurbs_surface *surface, const nurbs_grid *grid, double tolerance,
-                            nurbs_surface **light)
-{
-    nurbs_surface *raised;
-    nurbs_status status = nurbs_surface_simplify(
-        surface, tolerance,
-        NURBS_SIMPLIFY_KEEP_EDGES | NURBS_SIMPLIFY_KEEP_KINKS | NURBS_SIMPLIFY_THRIFTY, light,
-        NULL);
-    if (status != NURBS_OK || !is_half_hull(grid))
-        return status;
-    status = nurbs_surface_raise_side(*light, &raised, NULL);
-    if (status == NURBS_OK) {
-        nurbs_surface_free(*light);
-        *light = raised;
-    }
-    return status;
-}
-
 static int skin_grid(const nurbs_grid *grid, const struct request *request)
 {
     size_t rows = nurbs_grid_rows(grid), columns = nurbs_grid_columns(grid);
-    nurbs_surface *surface = NULL, *light = NULL;
+    nurbs_surface *surface = NULL;
     double *u = malloc((rows + columns) * sizeof *u), worst = 0;
     if (!u)
         return cli_fail("out of memory");
-    nurbs_status status = nurbs_skin(grid, &request->skin, &surface);
+    nurbs_status status =
+        request->tolerance > 0
+            ? nurbs_skin_light(grid, &request->skin, request->tolerance, &surface, NULL)
+            : nurbs_skin(grid, &request->skin, &surface);
     if (status == NURBS_OK)
         status = nurbs_skin_parameters(grid, &request->skin, u, u + rows);
-    if (status == NURBS_OK && request->tolerance > 0)
-        status = lighten(surface, grid, request->tolerance, &light);
-    const nurbs_surface *result = light ? light : surface;
     int code = status == NURBS_OK ? CLI_OK : library_failure();
     if (code == CLI_OK)
-        code = grid_deviation(result, grid, u, u + rows, &worst);
+        code = grid_deviation(surface, grid, u, u + rows, &worst);
     if (code == CLI_OK)
-        code = save(result, grid, u, u + rows, request);
+        code = save(surface, grid, u, u + rows, request);
     if (code == CLI_OK)
-        code = report(result, worst, request);
+        code = report(surface, worst, request);
     nurbs_surface_free(surface);
-    nurbs_surface_free(light);
     free(u);
     return code;
 }

@@ -66,6 +66,16 @@ NURBS_API void nurbs_skin_options_init(nurbs_skin_options *options);
 NURBS_API nurbs_status nurbs_skin(const nurbs_grid *grid, const nurbs_skin_options *options,
                                   nurbs_surface **surface);
 
+/** Creates a surface with fewer control points near the one of nurbs_skin(): knots are removed,
+ * edges and kinks kept; where all points have y >= 0 the surface gets it too
+ * (nurbs_surface_raise_side()).
+ * @param tolerance  metres, > 0
+ * @param bound      fills a proven bound of the distance between the two surfaces, and so from the
+ *                   points, m; at most the tolerance; NULL allowed
+ * Errors: NURBS_ERROR_NUMERIC: y >= 0 takes a larger change. */
+NURBS_API nurbs_status nurbs_skin_light(const nurbs_grid *grid, const nurbs_skin_options *options,
+                                        double tolerance, nurbs_surface **surface, double *bound);
+
 /** Fills u[rows] and v[columns]: the parameters of nurbs_skin, where its surface passes through the
  * points of the grid. */
 NURBS_API nurbs_status nurbs_skin_parameters(const nurbs_grid *grid,

@@ -15,4 +15,8 @@ typedef struct common {
  * knots closer than 1e-9 are one. Fills size, knots and net, which the caller frees. */
 nurbs_status common_union(size_t n, const nurbs_curve *const *curves, common *sections);
 
+/* Within a tolerance in metres, three-dimensional. Fills the same. */
+nurbs_status common_within(size_t n, const nurbs_curve *const *curves, double tolerance,
+                           common *sections);
+
 #endif

@@ -1,14 +1,8 @@
 /* Skinning of section curves with their own knots.
- *
- * Exactly: all curves are raised to one degree and given the union of all knots; knots closer than
- * MERGE are one knot. Within a tolerance: every section is sampled, and one knot vector is grown,
- * from knots spread like those of the sections, until least squares on it is within the tolerance
- * of every section. The size then depends on the shapes, not on how many knots the sections have
- * between them. */
+ * Exactly: all curves are raised to one degree and given the union of all knots (skin_union.c).
+ * Within a tolerance: skin_within.c. */
 #include "core/error.h"
-#include "core/knot_list.h"
 #include "fit/interpolate.h"
-#include "fit/least_squares.h"
 #include "fit/skin_common.h"
 
 #include <nurbs/basis.h>
@@ -18,8 +12,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { ROUNDS = 16 };
 
 static void common_free(common *sections)
 {
@@ -53,152 +45,6 @@ static nurbs_status normalize(const nurbs_curve *curve, int degree, nurbs_curve 
         status = nurbs_curve_elevate(scaled, degree - nurbs_curve_degree(curve), made);
     nurbs_curve_free(scaled);
     *result = *made;
-    return status;
-}
-
-static int compare_doubles(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-/* All interior knots of all curves, sorted; the caller frees them. */
-static double *gather_knots(size_t n, const nurbs_curve *const *curves, size_t *count)
-{
-    size_t total = 1;
-    for (size_t k = 0; k < n; k++)
-        total += nurbs_curve_size(curves[k]);
-    double *knots = malloc(total * sizeof *knots);
-    *count = 0;
-    for (size_t k = 0; knots && k < n; k++) {
-        const double *t = nurbs_curve_knots(curves[k]);
-        for (size_t i = (size_t)nurbs_curve_degree(curves[k]) + 1; i < nurbs_curve_size(curves[k]);
-             i++)
-            knots[(*count)++] = t[i];
-    }
-    if (knots)
-        qsort(knots, *count, sizeof *knots, compare_doubles);
-    return knots;
-}
-
-/* Samples a section: a dozen for each knot span of an average section, and some for the rest. */
-static size_t sample_count(size_t gathered, size_t n)
-{
-    size_t average = gathered / n + 1;
-    return 12 * average + 64;
-}
-
-/* Knots at equal shares of the gathered ones, half of them evenly spread for safety. */
-static nurbs_status start_knots(size_t count, const double *gathered, size_t spans, int degree,
-                                knot_list *list)
-{
-    nurbs_status status = knot_list_start(list, degree, (const double[]){0, 1});
-    for (size_t k = 1; k < spans && status == NURBS_OK; k++) {
-        double share = (double)k / (double)spans, at = share * (double)count;
-        size_t i = at < (double)count ? (size_t)at : count - 1;
-        double knot = count ? 0.5 * (gathered[i] + share) : share;
-        if (knot > list->knots[list->size - 1] + 1e-6 && knot < 1 - 1e-6)
-            status = knot_list_append(list, knot);
-    }
-    return status;
-}
-
-static nurbs_status sample_sections(size_t n, const nurbs_curve *const *curves, size_t samples,
-                                    const double *u, double *data)
-{
-    double *line = malloc(3 * samples * sizeof *line);
-    nurbs_status status =
-        line ? NURBS_OK : nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu samples", samples);
-    for (size_t k = 0; k < n && status == NURBS_OK; k++) {
-        status = nurbs_curve_eval(curves[k], 0, samples, u, line);
-        for (size_t i = 0; i < samples && status == NURBS_OK; i++)
-            memcpy(data + 3 * (i * n + k), line + 3 * i, 3 * sizeof *data);
-    }
-    free(line);
-    return status;
-}
-
-/* One least-squares fit of all sections; marks the spans that hold a datum farther off than the
- * tolerance. */
-static nurbs_status fit_round(const knot_list *list, size_t n, size_t samples, const double *u,
-                              const double *data, double tolerance, double *net,
-                              unsigned char *parts, int *divided)
-{
-    fit_matrix fit;
-    *divided = 0;
-    nurbs_status status =
-        fit_matrix_create(list->degree, list->size, list->knots, samples, u, &fit);
-    if (status != NURBS_OK)
-        return status;
-    fit_matrix_solve(&fit, 3 * n, data, net);
-    for (size_t k = 0; k < samples; k++)
-        if (fit_matrix_deviation(&fit, 3 * n, k, data, net) > tolerance) {
-            parts[fit.first[k] + (size_t)list->degree] = 2;
-            *divided = 1;
-        }
-    fit_matrix_free(&fit);
-    return NURBS_OK;
-}
-
-/* From the order of a fit, [size][n][3], to that of sections. */
-static nurbs_status turn_net(size_t n, common *sections)
-{
-    double *net = malloc(3 * n * sections->size * sizeof *net);
-    if (!net)
-        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu x %zu control points", n,
-                          sections->size);
-    for (size_t j = 0; j < sections->size; j++)
-        for (size_t i = 0; i < n; i++)
-            memcpy(net + 3 * (i * sections->size + j), sections->net + 3 * (j * n + i),
-                   3 * sizeof *net);
-    free(sections->net);
-    sections->net = net;
-    return NURBS_OK;
-}
-
-static nurbs_status within_tolerance(size_t n, const nurbs_curve *const *curves, double tolerance,
-                                     common *sections)
-{
-    size_t count, largest = 0;
-    double *gathered = gather_knots(n, curves, &count);
-    size_t samples = sample_count(count, n);
-    double *u = malloc(samples * (1 + 3 * n) * sizeof *u), *data = u + samples;
-    knot_list list = {0};
-    nurbs_status status =
-        gathered && u ? NURBS_OK
-                      : nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu samples", samples * n);
-    for (size_t k = 0; k < n; k++)
-        largest = nurbs_curve_size(curves[k]) > largest ? nurbs_curve_size(curves[k]) : largest;
-    for (size_t k = 0; k < samples && status == NURBS_OK; k++)
-        u[k] = (double)k / (double)(samples - 1);
-    if (status == NURBS_OK)
-        status = sample_sections(n, curves, samples, u, data);
-    if (status == NURBS_OK)
-        status = start_knots(count, gathered, largest - (size_t)sections->degree, sections->degree,
-                             &list);
-    int divided = 1;
-    for (int round = 0; round < ROUNDS && divided && status == NURBS_OK; round++) {
-        unsigned char *parts = calloc(list.size + (size_t)list.degree, 1);
-        double *net = realloc(sections->net, 3 * list.size * n * sizeof *net);
-        sections->net = net ? net : sections->net;
-        if (!parts || !net)
-            status = nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu control points", list.size);
-        if (status == NURBS_OK)
-            status = fit_round(&list, n, samples, u, data, tolerance, net, parts, &divided);
-        sections->size = list.size;
-        if (status == NURBS_OK && divided)
-            status = knot_list_divide(&list, parts);
-        free(parts);
-    }
-    if (status == NURBS_OK && divided)
-        status =
-            nurbs_fail(NURBS_ERROR_NUMERIC,
-                       "the sections cannot be brought to one knot vector within %g m", tolerance);
-    sections->knots = list.knots;
-    if (status == NURBS_OK)
-        status = turn_net(n, sections);
-    free(gathered);
-    free(u);
     return status;
 }
 
@@ -323,7 +169,7 @@ static nurbs_status make_common(size_t n, const nurbs_curve *const *sections, do
     for (size_t k = 0; k < n && status == NURBS_OK; k++)
         status = normalize(sections[k], result->degree, &made[k], &curves[k]);
     if (status == NURBS_OK)
-        status = tolerance > 0 ? within_tolerance(n, curves, tolerance, result)
+        status = tolerance > 0 ? common_within(n, curves, tolerance, result)
                                : common_union(n, curves, result);
     for (size_t k = 0; made && k < n; k++)
         nurbs_curve_free(made[k]);
