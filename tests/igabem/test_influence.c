@@ -210,20 +210,20 @@ static void test_filter_change(void)
     for (size_t i = 0; i < n; i++)
         weight[i] = i % 7 == 0 ? 0.0 : i % 2 ? 1.0 : 0.4;
     struct line *line = NULL;
-    struct wave_change *change = NULL;
+    struct filter_change *change = NULL;
     CU_ASSERT_EQUAL_FATAL(line_create(p.density, p.mesh, 0.4, &line), IGABEM_OK);
     CU_ASSERT_EQUAL_FATAL(influence_wave(p.influence, line, k0, 3, cutoff, weight, first, &change),
                           IGABEM_OK);
-    CU_ASSERT(wave_change_memory(change) > 0);
+    CU_ASSERT(filter_change_memory(change) > 0);
     for (size_t f = 0; f < 2; f++) {
         double largest = 0.0;
         memset(rows, 0, size * sizeof *rows);
         CU_ASSERT_EQUAL(
             influence_wave(p.influence, line, k0, 1, &cutoff[f + 1], weight, rows, NULL),
             IGABEM_OK);
-        wave_change_expand(change, f, matrix);
+        filter_change_expand(change, f, matrix);
         memset(marched, 0, n * sizeof *marched);
-        wave_change_add(change, f, p.sigma, marched);
+        filter_change_add(change, f, p.sigma, marched);
         for (size_t i = 0; i < n; i++) {
             const double *normal = p.density->normal + 3 * i;
             double a[3], b[3], expected = 0.0, expanded = 0.0;
@@ -240,7 +240,7 @@ static void test_filter_change(void)
         }
         CU_ASSERT(largest > 1e-3);
     }
-    wave_change_free(change);
+    filter_change_free(change);
     line_free(line);
     free(rows);
     free(matrix);

@@ -22,7 +22,7 @@ struct hull_patch {
     double domain[2][2];    /* first and last knot of u and of v */
     double sign;            /* outward normal: sign * Su x Sv, sign = +-1 */
     double side[2];         /* least and largest y of the samples, m */
-    int transom;            /* a flat face that closes the stern */
+    bool transom;           /* a flat face that closes the stern */
     int along;              /* direction that runs lengthwise; -1: the patch lies across the hull */
     double length[2];       /* of the longest line of either direction, m */
     double x[2];            /* mean x of the aft and of the fore end, m */
@@ -34,13 +34,13 @@ struct hull_patch {
 struct igabem_hull {
     size_t n;
     struct hull_patch *patches;
-    int symmetric;             /* the mirror image in y belongs to the body */
+    bool symmetric;            /* the mirror image in y belongs to the body */
     double length;             /* reference length, m */
     double extent;             /* x_fore - x_aft of the patches, m: scale of all tolerances */
     double lower[3], upper[3]; /* bounding box of the sampled patches, m */
     double run[2];             /* length from end to end, largest half girth, in patch lengths, m */
     double run_spans[2];       /* the same in knot spans */
-    int surface_piercing;
+    bool surface_piercing;
     int transom; /* igabem_transom */
     double nu_s;
     nurbs_hydrostatics hydrostatics;
@@ -51,8 +51,8 @@ void hull_edge_parameters(const struct hull_patch *patch, int edge, double s, do
 
 /* Point, outward unit normal and area element dS/(du dv) from the triples S, Su, Sv of
  * nurbs_surface_eval order 1. Returns 0 where the normal vanishes (normal and area then 0). */
-int hull_normal(const struct hull_patch *patch, const double triples[9], double normal[3],
-                double *area);
+bool hull_normal(const struct hull_patch *patch, const double triples[9], double normal[3],
+                 double *area);
 
 /* On a waterline edge: nu[2], the horizontal unit normal out of the body, and dl/ds of the edge
  * parameter given above, from S, Su, Sv. */
@@ -60,14 +60,14 @@ void hull_waterline_normal(const struct hull_patch *patch, int edge, const doubl
                            double nu[2], double *dl);
 
 /* Whether direction d of a patch runs around the hull (1) or along it (0). */
-int hull_is_around(const struct hull_patch *patch, int d);
+bool hull_is_around(const struct hull_patch *patch, int d);
 
 /* The part that falls to direction d of patch p of a number of elements along the hull or around
  * it: by length, at least 1; 0 for 0. */
 int hull_share(const struct igabem_hull *hull, size_t p, int d, int elements);
 
 /* Whether two patches lie on the same side of the centre plane. */
-int hull_same_side(const struct hull_patch *a, const struct hull_patch *b);
+bool hull_same_side(const struct hull_patch *a, const struct hull_patch *b);
 
 /* Edges of different patches, or opposite ones of the same patch, this close run together, m. */
 double hull_join_tolerance(const struct igabem_hull *hull);

@@ -178,7 +178,7 @@ igabem_status hull_classify_edges(struct igabem_hull *hull)
         else
             *kind = HULL_EDGE_OPEN;
         if (*kind == HULL_EDGE_WATERLINE)
-            hull->surface_piercing = 1;
+            hull->surface_piercing = true;
     }
     for (size_t e = 0; !status && e < n; e++)
         if (hull->patches[e / HULL_EDGES].edge[e % HULL_EDGES] == HULL_EDGE_OPEN)

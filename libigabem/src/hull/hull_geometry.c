@@ -11,7 +11,7 @@ igabem_status hull_nurbs_fail(nurbs_status status, const char *what)
     return igabem_fail(code, "%s: %s", what, nurbs_last_error());
 }
 
-int hull_same_side(const struct hull_patch *a, const struct hull_patch *b)
+bool hull_same_side(const struct hull_patch *a, const struct hull_patch *b)
 {
     return (a->side[0] + a->side[1] < 0) == (b->side[0] + b->side[1] < 0);
 }
@@ -25,8 +25,8 @@ void hull_edge_parameters(const struct hull_patch *patch, int edge, double s, do
     uv[1 - fixed] = s >= 1.0 ? along[1] : along[0] + s * (along[1] - along[0]);
 }
 
-int hull_normal(const struct hull_patch *patch, const double triples[9], double normal[3],
-                double *area)
+bool hull_normal(const struct hull_patch *patch, const double triples[9], double normal[3],
+                 double *area)
 {
     const double *su = triples + 3, *sv = triples + 6;
     double c[3] = {su[1] * sv[2] - su[2] * sv[1], su[2] * sv[0] - su[0] * sv[2],

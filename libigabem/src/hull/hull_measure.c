@@ -67,7 +67,7 @@ static void count_spans(struct hull_patch *patch, int d)
     patch->span_ratio[d] = largest / smallest;
 }
 
-int hull_is_around(const struct hull_patch *patch, int d)
+bool hull_is_around(const struct hull_patch *patch, int d)
 {
     return patch->along != d;
 }

@@ -65,8 +65,8 @@ static double seen(const struct cells *cells, const double sign[3], const double
 }
 
 /* Whether p lies in what part `number` of the body encloses with its images in y = 0 and z = 0. */
-static int encloses(const struct igabem_hull *hull, const struct cells *cells, const size_t *part,
-                    size_t number, const double p[3])
+static bool encloses(const struct igabem_hull *hull, const struct cells *cells, const size_t *part,
+                     size_t number, const double p[3])
 {
     double sum = 0.0;
     int near = 0;

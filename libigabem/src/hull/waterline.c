@@ -23,7 +23,7 @@ static int by_x(const void *a, const void *b)
     return (xa > xb) - (xa < xb);
 }
 
-static int is_waterline(const struct hull_patch *patch, int edge)
+static bool is_waterline(const struct hull_patch *patch, int edge)
 {
     return patch->edge[edge] == HULL_EDGE_WATERLINE && !patch->transom;
 }

@@ -1,7 +1,7 @@
 #include "influence/influence.h"
 
 #include "core/error.h"
-#include "kelvin/wave_math.h"
+#include "core/vector_math.h"
 #include "space/quadrature_regular.h"
 
 #include <math.h>
@@ -18,8 +18,8 @@ static int least_points(const struct element *element, int direction)
     return element->degree[direction] / 2 + 1;
 }
 
-int regular_class(const struct influence *influence, size_t panel, const struct near_rule *rule,
-                  int class[2])
+bool regular_class(const struct influence *influence, size_t panel, const struct near_rule *rule,
+                   int class[2])
 {
     const struct element *element = &influence->mesh->element[influence->mesh->panel[panel].first];
     const double *centre = influence->centre[panel], *half = influence->half[panel];
@@ -204,7 +204,7 @@ static igabem_status fill_regular(struct influence *influence)
     size_t *offset = malloc((mesh->panels + 1) * sizeof *offset);
     if (!offset)
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for quadrature nodes");
-    int failed = 0;
+    bool failed = false;
     for (size_t p = 0, at = 0; p < mesh->panels; p++) {
         offset[p] = at;
         at += panel_doubles(mesh, p);
@@ -293,7 +293,7 @@ void influence_count(const struct influence *influence, const struct igabem_cost
     total->wave += cost->wave;
 }
 
-WAVE_MULTIVERSION
+VECTOR_MULTIVERSION
 void regular_scatter(const struct element *element, const struct regular_rule *rule, size_t fields,
                      const double *k, size_t stride, double *rows, size_t row_stride)
 {
@@ -314,17 +314,17 @@ void regular_scatter(const struct element *element, const struct regular_rule *r
     }
 }
 
-int element_contains(const struct density *density, const struct element *element, size_t point,
-                     double local[2])
+bool element_contains(const struct density *density, const struct element *element, size_t point,
+                      double local[2])
 {
     if (density->owner[point] != element->patch)
-        return 0;
+        return false;
     for (int d = 0; d < 2; d++) {
         double width = element->upper[d] - element->lower[d];
         local[d] = (density->uv[point][d] - element->lower[d]) / width;
         if (local[d] < -1e-10 || local[d] > 1.0 + 1e-10)
-            return 0;
+            return false;
         local[d] = local[d] < 0 ? 0 : local[d] > 1 ? 1 : local[d];
     }
-    return 1;
+    return true;
 }

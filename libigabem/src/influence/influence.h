@@ -6,7 +6,7 @@
 #ifndef INFLUENCE_H
 #define INFLUENCE_H
 
-#include "influence/wave_change.h"
+#include "influence/filter_change.h"
 #include "space/line.h"
 
 enum { REGULAR_CLASSES = 4, REGULAR_MOST = 6 + ELEMENT_SIDE / 2 };
@@ -42,8 +42,8 @@ void influence_count(const struct influence *influence, const struct igabem_cost
 /* Raises class[2] to the rules that a panel needs to be seen from the rule's point, or returns 0 if
  * none is fine enough: the kernel is too close to its singularity, or the panel's shape too uneven.
  */
-int regular_class(const struct influence *influence, size_t panel, const struct near_rule *rule,
-                  int class[2]);
+bool regular_class(const struct influence *influence, size_t panel, const struct near_rule *rule,
+                   int class[2]);
 
 const struct regular_rule *regular_rule_of(const struct influence *influence, size_t panel,
                                            const int class[2]);
@@ -53,8 +53,8 @@ void regular_scatter(const struct element *element, const struct regular_rule *r
                      const double *k, size_t stride, double *rows, size_t row_stride);
 
 /* Whether the element's closure contains a collocation point; its local parameters there. */
-int element_contains(const struct density *density, const struct element *element, size_t point,
-                     double local[2]);
+bool element_contains(const struct density *density, const struct element *element, size_t point,
+                      double local[2]);
 
 /* Fills rankine and image; without image (NULL), adds image_weight[i] times its row i to rankine
  * (both NULL: not wanted). */
@@ -75,6 +75,6 @@ igabem_status influence_local_line(const struct influence *influence, const stru
  * most, change in the component along the normal of the point (filters 1: NULL). */
 igabem_status influence_wave(const struct influence *influence, const struct line *line, double k0,
                              size_t filters, const double *cutoff, const double *weight,
-                             double *rows, struct wave_change **change);
+                             double *rows, struct filter_change **change);
 
 #endif

@@ -24,10 +24,10 @@ struct local_work {
     struct igabem_cost cost;
 };
 
-static int reserve(struct local_work *work, size_t n)
+static bool reserve(struct local_work *work, size_t n)
 {
     if (n <= work->capacity)
-        return 1;
+        return true;
     free(work->batch);
     work->capacity = n + n / 2;
     work->batch = malloc(6 * work->capacity * sizeof *work->batch);

@@ -1,7 +1,7 @@
 #include "core/constants.h"
 #include "core/error.h"
+#include "core/vector_math.h"
 #include "influence/influence.h"
-#include "kelvin/wave_math.h"
 #include "space/quadrature_near.h"
 #include "space/quadrature_singular.h"
 
@@ -18,9 +18,9 @@ struct reflection {
 static const struct reflection reflections[4] = {{1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
 
 /* sign (P - Q)/(4 pi r^3), its components multiplied by the reflection, added to k[3][stride]. */
-WAVE_INLINE void kernel(const double p[3], const struct reflection *reflection, double sign,
-                        size_t n, const double *x, const double *y, const double *z, double *k,
-                        size_t stride)
+VECTOR_INLINE void kernel(const double p[3], const struct reflection *reflection, double sign,
+                          size_t n, const double *x, const double *y, const double *z, double *k,
+                          size_t stride)
 {
     double sx = sign / (4.0 * PI), sy = sx * reflection->y, sz = sx * reflection->z;
     double *kx = k, *ky = k + stride, *kz = k + 2 * stride;
@@ -33,7 +33,7 @@ WAVE_INLINE void kernel(const double p[3], const struct reflection *reflection, 
     }
 }
 
-WAVE_MULTIVERSION
+VECTOR_MULTIVERSION
 static void kernel_batch(const double p[3], const struct reflection *reflection, double sign,
                          const struct nodes *nodes, double *k)
 {
@@ -112,7 +112,7 @@ static struct far_view look(const struct influence *influence, size_t p, const d
 }
 
 /* Panels at a distance from the point: shared nodes, all images summed before the basis. */
-WAVE_MULTIVERSION
+VECTOR_MULTIVERSION
 static void far_rows(const struct influence *influence, const double image[4][3],
                      const struct far_view *views, int images, double *direct, double *mirrored,
                      size_t stride, struct igabem_cost *cost)
@@ -180,14 +180,14 @@ static igabem_status near_rows(const struct influence *influence, size_t point,
 }
 
 /* Whether an element of the panel contains the collocation point. */
-static int panel_contains(const struct influence *influence, const struct panel *panel,
-                          size_t point)
+static bool panel_contains(const struct influence *influence, const struct panel *panel,
+                           size_t point)
 {
     double local[2];
     for (size_t e = panel->first; e < panel->first + panel->count; e++)
         if (element_contains(influence->density, &influence->mesh->element[e], point, local))
-            return 1;
-    return 0;
+            return true;
+    return false;
 }
 
 static igabem_status point_rows(const struct influence *influence, size_t point,

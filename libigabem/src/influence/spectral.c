@@ -7,7 +7,7 @@
 
 #include "core/constants.h"
 #include "core/error.h"
-#include "kelvin/wave_math.h"
+#include "core/vector_math.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -17,8 +17,8 @@ enum { BLOCK_POINTS = 8 };
 
 /* e^{k0 s^2 z} cos(a - x0 phase) ... of one node for all angles: re, im (= -sin) times the cosine
  * and sine in eta. */
-WAVE_INLINE void node_waves(const struct wave *wave, size_t angles, double x, double y, double z,
-                            double *out)
+VECTOR_INLINE void node_waves(const struct spectral *wave, size_t angles, double x, double y,
+                              double z, double *out)
 {
     const double *t = wave->spectrum->t, *root = wave->spectrum->root;
     double k0 = wave->k0, dx = k0 * (x - wave->x0), ky = k0 * y, kz = k0 * z;
@@ -27,9 +27,9 @@ WAVE_INLINE void node_waves(const struct wave *wave, size_t angles, double x, do
     int sets = (int)wave->sets;
     for (size_t j = 0; j < angles; j++) {
         double sine, cosine, sine_y, cosine_y;
-        double amplitude = wave_exp(fmax(kz * (1.0 + t[j] * t[j]), -600.0));
-        wave_sincos(dx * root[j], &sine, &cosine);
-        wave_sincos(ky * t[j] * root[j], &sine_y, &cosine_y);
+        double amplitude = vector_exp(fmax(kz * (1.0 + t[j] * t[j]), -600.0));
+        vector_sincos(dx * root[j], &sine, &cosine);
+        vector_sincos(ky * t[j] * root[j], &sine_y, &cosine_y);
         re[j] = amplitude * cosine * cosine_y;
         im[j] = -amplitude * sine * cosine_y;
         if (sets == 2) {
@@ -41,7 +41,7 @@ WAVE_INLINE void node_waves(const struct wave *wave, size_t angles, double x, do
 
 /* Number of leading angles that reach down and up again over a path of this depth, to a hundredth
  * of the tolerance because they are many. */
-static size_t angles_at(const struct wave *wave, double depth)
+static size_t angles_at(const struct spectral *wave, double depth)
 {
     struct wave_rule rule = wave->rule;
     rule.clearance = 0.0;
@@ -54,8 +54,8 @@ static size_t angles_at(const struct wave *wave, double depth)
 }
 
 /* Returns the number of waves evaluated. */
-WAVE_MULTIVERSION
-static size_t accumulate(const struct wave *wave, const struct nodes *nodes, size_t functions,
+VECTOR_MULTIVERSION
+static size_t accumulate(const struct spectral *wave, const struct nodes *nodes, size_t functions,
                          const double *f, double *buffer, double *moments)
 {
     size_t n = wave->spectrum->n, waves = 0;
@@ -85,7 +85,7 @@ struct wave_work {
     double *nearby; /* [filters - 1][n] what further filters change, cleared after use */
 };
 
-static int reserve(struct wave_work *work, size_t n)
+static bool reserve(struct wave_work *work, size_t n)
 {
     if (n > work->f_capacity) {
         free(work->f);
@@ -96,7 +96,7 @@ static int reserve(struct wave_work *work, size_t n)
 }
 
 /* Nodes of the part of a source ahead of x (-INFINITY: all of it). */
-static void source_nodes(const struct wave *wave, const struct source *source, double x,
+static void source_nodes(const struct spectral *wave, const struct source *source, double x,
                          const struct wave_rule *rule, struct nodes *nodes)
 {
     if (source->segment) {
@@ -118,7 +118,7 @@ static void source_nodes(const struct wave *wave, const struct source *source, d
         size_t n = 0;
         if (element->box[0][0] >= x) {
             domain_whole(element, pieces);
-            pieces[n++].ahead = 1;
+            pieces[n++].ahead = true;
         } else if (element->box[1][0] > x) {
             n = domain_cut(element, x, pieces);
         }
@@ -128,7 +128,7 @@ static void source_nodes(const struct wave *wave, const struct source *source, d
     }
 }
 
-static igabem_status source_moments(const struct wave *wave, struct source *source,
+static igabem_status source_moments(const struct spectral *wave, struct source *source,
                                     struct wave_work *work)
 {
     size_t m = spectral_functions(source->element);
@@ -144,7 +144,7 @@ static igabem_status source_moments(const struct wave *wave, struct source *sour
 
 /* Rows of factors of a point: three components with the first filter, and what each further filter
  * changes along the normal. */
-static size_t factor_rows(const struct wave *wave)
+static size_t factor_rows(const struct spectral *wave)
 {
     return wave->filters + 2;
 }
@@ -152,7 +152,7 @@ static size_t factor_rows(const struct wave *wave)
 /* Factors of a point: for every row (see above), a last one along the normal without filter, and
  * every set the multipliers of re and im, so that the
  * velocity is the sum over angles of factor times moment. The order is [row][width]. */
-static size_t point_factors(const struct wave *wave, size_t point, double *factor)
+static size_t point_factors(const struct spectral *wave, size_t point, double *factor)
 {
     const struct spectrum *spectrum = wave->spectrum;
     const double *p = wave->influence->density->point + 3 * point;
@@ -162,9 +162,9 @@ static size_t point_factors(const struct wave *wave, size_t point, double *facto
     scale *= wave->weight ? wave->weight[point] : 1.0;
     for (size_t j = 0; j < angles; j++) {
         double t = spectrum->t[j], s = spectrum->root[j], sine, cosine, sine_y, cosine_y;
-        wave_sincos(k0 * (p[0] - wave->x0) * s, &sine, &cosine);
-        wave_sincos(k0 * p[1] * t * s, &sine_y, &cosine_y);
-        double base = scale * spectrum->weight[j] * wave_exp(fmax(k0 * p[2] * s * s, -600.0));
+        vector_sincos(k0 * (p[0] - wave->x0) * s, &sine, &cosine);
+        vector_sincos(k0 * p[1] * t * s, &sine_y, &cosine_y);
+        double base = scale * spectrum->weight[j] * vector_exp(fmax(k0 * p[2] * s * s, -600.0));
         double u = base * s, v = -base * t * s, w = base * s * s;
         double *row = factor + j;
         for (size_t set = 0; set < wave->sets; set++, row += 2 * n) {
@@ -189,8 +189,8 @@ static size_t point_factors(const struct wave *wave, size_t point, double *facto
 }
 
 /* Adds factor . state_k to the rows of unknown k. */
-WAVE_MULTIVERSION
-static void product(const struct wave *wave, const double *factor, size_t angles,
+VECTOR_MULTIVERSION
+static void product(const struct spectral *wave, const double *factor, size_t angles,
                     const double *state, size_t first, size_t last, double *rows)
 {
     size_t n = wave->spectrum->n, width = wave->width, stride = wave->influence->density->n;
@@ -224,8 +224,8 @@ static void product(const struct wave *wave, const double *factor, size_t angles
 }
 
 /* The products of a further filter with the unknowns that are not wholly ahead. */
-WAVE_MULTIVERSION
-static void product_nearby(const struct wave *wave, const double *factor, size_t angles,
+VECTOR_MULTIVERSION
+static void product_nearby(const struct spectral *wave, const double *factor, size_t angles,
                            const double *state, size_t first, size_t last, size_t ahead,
                            double *nearby)
 {
@@ -247,8 +247,8 @@ static void product_nearby(const struct wave *wave, const double *factor, size_t
 
 /* Velocities at the point due to nodes ahead of it: fills k[row of factors][node]. Returns the
  * number of waves evaluated. */
-WAVE_MULTIVERSION
-static size_t direct_sum(const struct wave *wave, const double *factor, size_t point_angles,
+VECTOR_MULTIVERSION
+static size_t direct_sum(const struct spectral *wave, const double *factor, size_t point_angles,
                          double clearance, const struct nodes *nodes, double *buffer, double *k)
 {
     size_t n = wave->spectrum->n, width = wave->width, waves = 0;
@@ -277,7 +277,7 @@ static size_t direct_sum(const struct wave *wave, const double *factor, size_t p
     return waves;
 }
 
-static igabem_status straddling(const struct wave *wave, size_t point, const double *factor,
+static igabem_status straddling(const struct spectral *wave, size_t point, const double *factor,
                                 size_t angles, double slack, struct wave_work *work, double *rows)
 {
     const struct density *density = wave->influence->density;
@@ -303,7 +303,7 @@ static igabem_status straddling(const struct wave *wave, size_t point, const dou
     return IGABEM_OK;
 }
 
-static void add_moments(const struct wave *wave, const struct source *source, double *state,
+static void add_moments(const struct spectral *wave, const struct source *source, double *state,
                         size_t range[2])
 {
     const struct element *element = source->element;
@@ -321,7 +321,7 @@ static void add_moments(const struct wave *wave, const struct source *source, do
 }
 
 /* Row `index` of the operator of the further filters. */
-static igabem_status record_change(const struct wave *wave, size_t index, size_t angles,
+static igabem_status record_change(const struct spectral *wave, size_t index, size_t angles,
                                    const double *factor, double *nearby)
 {
     size_t n = wave->spectrum->n;
@@ -329,7 +329,7 @@ static igabem_status record_change(const struct wave *wave, size_t index, size_t
     double *to = wave->change->factor + index * wave->width;
     for (size_t set = 0; set < 2 * wave->sets; set++)
         memcpy(to + set * n, from + set * n, angles * sizeof *to);
-    if (wave_change_collect(wave->change, index, nearby))
+    if (filter_change_collect(wave->change, index, nearby))
         return IGABEM_OK;
     return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for a wave operator");
 }
@@ -342,7 +342,7 @@ struct state {
 };
 
 /* Rows of a block of consecutive points (in order of decreasing x), behind those of the state. */
-static igabem_status block_rows(const struct wave *wave, size_t begin, size_t end,
+static igabem_status block_rows(const struct spectral *wave, size_t begin, size_t end,
                                 struct wave_work *work, struct state *state, double *factor,
                                 double *rows)
 {
@@ -370,7 +370,7 @@ static igabem_status block_rows(const struct wave *wave, size_t begin, size_t en
     return IGABEM_OK;
 }
 
-static igabem_status march(const struct wave *wave, int threads, double *rows)
+static igabem_status march(const struct spectral *wave, int threads, double *rows)
 {
     const struct density *density = wave->influence->density;
     size_t blocks = wave->points / BLOCK_POINTS + 1;
@@ -420,21 +420,21 @@ static igabem_status march(const struct wave *wave, int threads, double *rows)
 
 igabem_status influence_wave(const struct influence *influence, const struct line *line, double k0,
                              size_t filters, const double *cutoff, const double *weight,
-                             double *rows, struct wave_change **change)
+                             double *rows, struct filter_change **change)
 {
-    struct wave wave = {.influence = influence,
-                        .line = line && line->n ? line : NULL,
-                        .sets = influence->density->symmetric ? 1 : 2,
-                        .k0 = k0,
-                        .filters = filters,
-                        .cutoff = cutoff,
-                        .weight = weight};
+    struct spectral wave = {.influence = influence,
+                            .line = line && line->n ? line : NULL,
+                            .sets = influence->density->symmetric ? 1 : 2,
+                            .k0 = k0,
+                            .filters = filters,
+                            .cutoff = cutoff,
+                            .weight = weight};
     igabem_status status = spectral_create(&wave);
     if (status == IGABEM_OK)
         status = march(&wave, influence->threads, rows);
     spectral_free(&wave);
     if (status != IGABEM_OK) {
-        wave_change_free(wave.change);
+        filter_change_free(wave.change);
         wave.change = NULL;
     }
     if (change)

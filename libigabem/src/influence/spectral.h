@@ -16,7 +16,7 @@ struct source {
     double *moments;                    /* [function][set][re, im][angle] */
 };
 
-struct wave {
+struct spectral {
     const struct influence *influence;
     const struct line *line;
     struct spectrum *spectrum;
@@ -35,14 +35,14 @@ struct wave {
     size_t *point; /* wanted rows, by decreasing x */
     size_t points;
     double *storage;
-    struct wave_change *change; /* NULL with one filter */
+    struct filter_change *change; /* NULL with one filter */
 };
 
 /* Fills the rest of *wave from influence, line, sets, k0, filters, cutoff and weight; moments of
  * the sources are left empty. To be freed also after an error. */
-igabem_status spectral_create(struct wave *wave);
+igabem_status spectral_create(struct spectral *wave);
 /* Frees all but the change. */
-void spectral_free(struct wave *wave);
+void spectral_free(struct spectral *wave);
 
 /* Basis functions of an element. */
 size_t spectral_functions(const struct element *element);

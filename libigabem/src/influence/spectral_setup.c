@@ -33,7 +33,7 @@ static int points_by_decreasing_x(const void *a, const void *b)
     return d > 0 ? 1 : d < 0 ? -1 : (p->index > q->index) - (p->index < q->index);
 }
 
-static igabem_status sort_points(struct wave *wave)
+static igabem_status sort_points(struct spectral *wave)
 {
     const struct density *density = wave->influence->density;
     struct point_order *order = malloc(density->n * sizeof *order);
@@ -52,7 +52,7 @@ static igabem_status sort_points(struct wave *wave)
     return IGABEM_OK;
 }
 
-static igabem_status make_sources(struct wave *wave)
+static igabem_status make_sources(struct spectral *wave)
 {
     const struct mesh *mesh = wave->influence->mesh;
     size_t n = mesh->panels + (wave->line ? wave->line->n : 0), doubles = 0;
@@ -87,7 +87,7 @@ static igabem_status make_sources(struct wave *wave)
 }
 
 /* Extent of the sources and the least depths of sources and points. */
-static igabem_status make_spectrum(struct wave *wave)
+static igabem_status make_spectrum(struct spectral *wave)
 {
     const struct influence *influence = wave->influence;
     double x[2] = {INFINITY, -INFINITY}, y = 0.0, depth = INFINITY, clearance = INFINITY;
@@ -136,9 +136,9 @@ static size_t unknown_of(const struct element *element, size_t function)
 
 /* The unknowns in the order in which the march passes the last of their sources, and how many it
  * has passed when it comes to each point. */
-static igabem_status order_unknowns(const struct wave *wave)
+static igabem_status order_unknowns(const struct spectral *wave)
 {
-    struct wave_change *change = wave->change;
+    struct filter_change *change = wave->change;
     size_t *waiting = calloc(change->n, sizeof *waiting), next = 0, passed = 0;
     if (!waiting)
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for a wave operator");
@@ -157,18 +157,18 @@ static igabem_status order_unknowns(const struct wave *wave)
                     change->rank[k] = passed++;
                 }
             }
-        change->row[i] = (struct wave_change_row){.point = wave->point[i], .ahead = passed};
+        change->row[i] = (struct filter_change_row){.point = wave->point[i], .ahead = passed};
     }
     free(waiting);
     return IGABEM_OK;
 }
 
-static igabem_status make_change(struct wave *wave)
+static igabem_status make_change(struct spectral *wave)
 {
     size_t n = wave->spectrum->n;
     igabem_status status =
-        wave_change_create(wave->influence->density->n, wave->points, wave->width,
-                           wave->filters - 1, wave->influence->threads, &wave->change);
+        filter_change_create(wave->influence->density->n, wave->points, wave->width,
+                             wave->filters - 1, wave->influence->threads, &wave->change);
     if (status != IGABEM_OK)
         return status;
     for (size_t f = 1; f < wave->filters; f++)
@@ -178,7 +178,7 @@ static igabem_status make_change(struct wave *wave)
     return order_unknowns(wave);
 }
 
-igabem_status spectral_create(struct wave *wave)
+igabem_status spectral_create(struct spectral *wave)
 {
     wave->rule.tolerance = wave->influence->tolerance;
     igabem_status status = make_spectrum(wave);
@@ -191,7 +191,7 @@ igabem_status spectral_create(struct wave *wave)
     return status;
 }
 
-void spectral_free(struct wave *wave)
+void spectral_free(struct spectral *wave)
 {
     spectrum_free(wave->spectrum);
     free(wave->filter);

@@ -1,7 +1,7 @@
 #include "result/amplitude.h"
 
 #include "core/error.h"
-#include "kelvin/wave_math.h"
+#include "core/vector_math.h"
 
 #include <nurbs/basis.h>
 
@@ -17,26 +17,26 @@ static const double DECAY = 40.0;       /* sources beyond e^-40 are left out */
 
 /* Elementary waves at the places of a block: e^{a z} (cos, sin)(k x + b y), both sides at once if
  * symmetric: e^{a z} 2 cos(b y) (cos, sin)(k x). z NULL: on the waterline. */
-WAVE_MULTIVERSION
-static void block_waves(int symmetric, double a, double b, double k, size_t n,
+VECTOR_MULTIVERSION
+static void block_waves(bool symmetric, double a, double b, double k, size_t n,
                         const double *restrict x, const double *restrict y,
                         const double *restrict z, double *restrict re, double *restrict im)
 {
     double along = symmetric ? 0.0 : b, across = b - along, factor = symmetric ? 2.0 : 1.0;
     for (size_t j = 0; j < n; j++)
-        re[j] = z ? factor * wave_exp(a * z[j]) : factor;
+        re[j] = z ? factor * vector_exp(a * z[j]) : factor;
 #pragma omp simd
     for (size_t j = 0; j < n; j++) {
         double s, c, sy, cy;
-        wave_sincos(k * x[j] + along * y[j], &s, &c);
-        wave_sincos(across * y[j], &sy, &cy);
+        vector_sincos(k * x[j] + along * y[j], &s, &c);
+        vector_sincos(across * y[j], &sy, &cy);
         double e = re[j] * cy;
         re[j] = e * c;
         im[j] = e * s;
     }
 }
 
-WAVE_MULTIVERSION
+VECTOR_MULTIVERSION
 static double dot(size_t n, const double *restrict p, const double *restrict q)
 {
     double sum = 0.0;
@@ -47,7 +47,7 @@ static double dot(size_t n, const double *restrict p, const double *restrict q)
 }
 
 /* Adds to h the waves of n sources for every set of strengths. */
-static void add_waves(int symmetric, double a, double b, double k, size_t n, const double *x,
+static void add_waves(bool symmetric, double a, double b, double k, size_t n, const double *x,
                       const double *y, const double *z, size_t sets, const double *const *strength,
                       double (*h)[2])
 {
@@ -114,10 +114,10 @@ static double panel_end(double k0, double length, double beam, double v, double 
     }
 }
 
-static int append(size_t *n, size_t *room, double **t, double **weight)
+static bool append(size_t *n, size_t *room, double **t, double **weight)
 {
     if (*n + PANEL <= *room)
-        return 1;
+        return true;
     *room = 2 * *room + 64 * PANEL;
     double *more_t = realloc(*t, *room * sizeof **t);
     if (more_t)

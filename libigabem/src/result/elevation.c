@@ -2,9 +2,9 @@
  * Rankine terms cancel and phi_x = (k0^2/4 pi) Sum q (N_X + W_X) over surface and line sources. */
 #include "core/constants.h"
 #include "core/error.h"
+#include "result/elevation_march.h"
+#include "result/elevation_tree.h"
 #include "result/radiation.h"
-#include "result/wave_march.h"
-#include "result/wave_tree.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -22,17 +22,17 @@ struct segment {
 struct waterplane {
     size_t n;
     struct segment *segment;
-    int symmetric;
+    bool symmetric;
 };
 
 struct field {
     const igabem_solution *solution;
-    struct wave_pieces *pieces;
+    struct elevation_pieces *pieces;
     struct point_set set;
     size_t *first;  /* sources of piece i: first[i] .. first[i+1] */
     size_t *by_bow; /* pieces by decreasing aft end */
-    struct wave_tree *tree;
-    struct wave_march *march;
+    struct elevation_tree *tree;
+    struct elevation_march *march;
     struct waterplane waterplane;
 };
 
@@ -63,7 +63,7 @@ static igabem_status trace_waterplane(const igabem_solution *solution, struct wa
 }
 
 /* Even-odd rule along +y from the point; the centre plane closes a half hull. */
-static int inside_waterplane(const struct waterplane *plane, double x, double y)
+static bool inside_waterplane(const struct waterplane *plane, double x, double y)
 {
     int inside = 0;
     double side = plane->symmetric ? fabs(y) : y;
@@ -89,16 +89,16 @@ static double field_limit(const igabem_solution *solution)
 
 static igabem_status place_sources(struct field *field)
 {
-    struct wave_pieces *pieces = field->pieces;
+    struct elevation_pieces *pieces = field->pieces;
     field->first = malloc((pieces->n + 1) * sizeof *field->first);
     field->by_bow = malloc(pieces->n * sizeof *field->by_bow);
     if (!field->first || !field->by_bow)
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu elements", pieces->n);
     for (size_t i = 0; i < pieces->n; i++) {
-        struct wave_piece *piece = &pieces->piece[i];
+        struct elevation_piece *piece = &pieces->piece[i];
         field->first[i] = field->set.n;
         field->by_bow[i] = i;
-        if (!wave_piece_sources(pieces, i, NAN, &field->set))
+        if (!elevation_piece_sources(pieces, i, NAN, &field->set))
             return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for the sources of the hull");
         const double *at[3] = {field->set.x, field->set.y, field->set.z};
         for (size_t j = field->first[i]; j < field->set.n; j++)
@@ -121,9 +121,9 @@ static igabem_status place_sources(struct field *field)
 
 static void field_free(struct field *field)
 {
-    wave_tree_free(field->tree);
-    wave_march_free(field->march);
-    wave_pieces_free(field->pieces);
+    elevation_tree_free(field->tree);
+    elevation_march_free(field->march);
+    elevation_pieces_free(field->pieces);
     point_set_free(&field->set);
     free(field->first);
     free(field->by_bow);
@@ -138,13 +138,14 @@ static igabem_status field_create(const igabem_solution *solution, const double 
     double t_max = field_limit(solution);
     igabem_status status = trace_waterplane(solution, &field->waterplane);
     if (!status)
-        status = wave_pieces_create(solution, t_max, &field->pieces);
+        status = elevation_pieces_create(solution, t_max, &field->pieces);
     if (!status)
         status = place_sources(field);
     if (!status)
-        status = wave_tree_create(field->pieces, &field->set, field->first, &field->tree);
+        status = elevation_tree_create(field->pieces, &field->set, field->first, &field->tree);
     if (!status)
-        status = wave_march_create(solution->k0, solution->density->symmetric, reach[0], reach[1],
+        status =
+            elevation_march_create(solution->k0, solution->density->symmetric, reach[0], reach[1],
                                    t_max, radiation_cutoff_angle(solution), &field->march);
     if (status)
         field_free(field);
@@ -166,18 +167,18 @@ static int from_bow(const void *a, const void *b)
 }
 
 /* Sources ahead of x in the pieces that x cuts. */
-static int sources_ahead(const struct point_set *cut, double x, struct point_set *ahead)
+static bool sources_ahead(const struct point_set *cut, double x, struct point_set *ahead)
 {
     point_set_clear(ahead);
     for (size_t j = 0; j < cut->n; j++)
         if (cut->x[j] > x && !point_set_add(ahead, cut->x[j], cut->y[j], cut->z[j], cut->q[j]))
-            return 0;
-    return 1;
+            return false;
+    return true;
 }
 
 struct line_work {
     double *even, *odd;
-    struct wave_cut cut;
+    struct elevation_cut cut;
     struct point_set ahead;
 };
 
@@ -188,10 +189,10 @@ static igabem_status elevate_line(struct field *field, struct line_work *work, s
     const igabem_solution *solution = field->solution;
     double x = lines[0].x, k0 = solution->k0;
     double scale = solution->speed / solution->options.gravity * k0 * k0 / (4.0 * PI);
-    if (!wave_cut_line(field->pieces, x, &work->cut) ||
+    if (!elevation_cut_line(field->pieces, x, &work->cut) ||
         !sources_ahead(&work->cut.set, x, &work->ahead))
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for the sources near x = %g", x);
-    wave_march_line(field->march, x, &work->ahead, work->even, work->odd);
+    elevation_march_line(field->march, x, &work->ahead, work->even, work->odd);
     igabem_status status = IGABEM_OK;
 #pragma omp parallel
     {
@@ -204,14 +205,14 @@ static igabem_status elevate_line(struct field *field, struct line_work *work, s
             if (inside_waterplane(&field->waterplane, x, y[at]))
                 continue;
             igabem_status failed =
-                wave_tree_local(field->tree, &work->cut, k0, solution->density->symmetric, x, y[at],
-                                &scratch, &local);
+                elevation_tree_local(field->tree, &work->cut, k0, solution->density->symmetric, x,
+                                     y[at], &scratch, &local);
             if (failed) {
 #pragma omp critical(igabem_elevation)
                 status = failed;
                 continue;
             }
-            double wave = wave_march_value(field->march, work->even, work->odd, y[at]);
+            double wave = elevation_march_value(field->march, work->even, work->odd, y[at]);
             zeta[at] = scale * (local + 4.0 * wave);
         }
         point_set_free(&scratch);
@@ -223,7 +224,7 @@ static igabem_status elevate_line(struct field *field, struct line_work *work, s
 }
 
 /* Adds to the running sums the pieces that now lie ahead of x, from the next one on. */
-static int advance(struct field *field, double x, size_t *next, struct point_set *batch)
+static bool advance(struct field *field, double x, size_t *next, struct point_set *batch)
 {
     point_set_clear(batch);
     for (; *next < field->pieces->n; ++*next) {
@@ -233,10 +234,10 @@ static int advance(struct field *field, double x, size_t *next, struct point_set
         for (size_t j = field->first[piece]; j < field->first[piece + 1]; j++)
             if (!point_set_add(batch, field->set.x[j], field->set.y[j], field->set.z[j],
                                field->set.q[j]))
-                return 0;
+                return false;
     }
-    wave_march_add(field->march, batch, 0, batch->n);
-    return 1;
+    elevation_march_add(field->march, batch, 0, batch->n);
+    return true;
 }
 
 static igabem_status march(struct field *field, size_t n, const struct line *lines, const double *y,
@@ -244,7 +245,7 @@ static igabem_status march(struct field *field, size_t n, const struct line *lin
 {
     struct line_work work = {.even = malloc(field->march->n * sizeof(double)),
                              .odd = malloc(field->march->n * sizeof(double))};
-    igabem_status status = wave_cut_create(field->pieces->n, &work.cut);
+    igabem_status status = elevation_cut_create(field->pieces->n, &work.cut);
     if (!status && (!work.even || !work.odd))
         status = igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu wave angles", field->march->n);
     size_t next = 0; /* pieces not yet in the running sums */
@@ -258,7 +259,7 @@ static igabem_status march(struct field *field, size_t n, const struct line *lin
     }
     free(work.even);
     free(work.odd);
-    wave_cut_free(&work.cut);
+    elevation_cut_free(&work.cut);
     point_set_free(&work.ahead);
     return status;
 }

@@ -227,7 +227,7 @@ igabem_status sources_create(const igabem_solution *solution, const struct sourc
                              .gauss = &gauss};
     nodes_init(&surface, mesh);
     nodes_init(&waterline, mesh);
-    surface.with_normals = waterline.with_normals = 1;
+    surface.with_normals = waterline.with_normals = true;
     surface_nodes(mesh, wanted, &rule, &surface);
     waterline_nodes(line, wanted, &rule, &waterline);
     if (surface.failed || waterline.failed) {

@@ -7,8 +7,8 @@
 #include <igabem/solve.h>
 
 struct sources {
-    int symmetric; /* every source has a mirror image in y that is not listed */
-    size_t n;      /* surface sources, ordered by increasing depth */
+    bool symmetric; /* every source has a mirror image in y that is not listed */
+    size_t n;       /* surface sources, ordered by increasing depth */
     double *x, *y, *z;
     double *strength;         /* sigma times area, m^3/s */
     double *area;             /* weight times area element, m^2: sum is the wetted area */

@@ -21,7 +21,7 @@ size_t filters_of(const igabem_options *options, double cutoff[FILTERS_MOST])
 
 /* The densities of all filters by LU, which replaces the matrices by their factors. */
 static igabem_status solve_directly(const struct matrix *matrix, igabem_solution *solution,
-                                    size_t filters, const struct wave_change *change,
+                                    size_t filters, const struct filter_change *change,
                                     double *const *sigma)
 {
     size_t n = matrix->n;
@@ -33,7 +33,7 @@ static igabem_status solve_directly(const struct matrix *matrix, igabem_solution
     for (size_t f = filters; f-- > 0 && status == IGABEM_OK;) {
         const struct matrix changed = {n, n, sum, matrix->threads};
         if (f > 0) {
-            wave_change_expand(change, f - 1, sum);
+            filter_change_expand(change, f - 1, sum);
             for (size_t i = 0; i < n; i++)
                 for (size_t k = 0; k < n; k++)
                     sum[i * n + k] += matrix->rows[i * matrix->stride + k];
@@ -47,21 +47,21 @@ static igabem_status solve_directly(const struct matrix *matrix, igabem_solution
     return status;
 }
 
-struct filter_change {
-    const struct wave_change *change;
+struct one_change {
+    const struct filter_change *change;
     size_t filter;
 };
 
 static void add_change(const void *data, const double *x, double *y)
 {
-    const struct filter_change *change = data;
-    wave_change_add(change->change, change->filter, x, y);
+    const struct one_change *change = data;
+    filter_change_add(change->change, change->filter, x, y);
 }
 
 /* The same by GMRES, which leaves the matrices as they are; a filter starts from the density of the
  * first. */
 static igabem_status solve_iteratively(const struct matrix *matrix, igabem_solution *solution,
-                                       size_t filters, const struct wave_change *change,
+                                       size_t filters, const struct filter_change *change,
                                        double *const *sigma)
 {
     size_t n = matrix->n;
@@ -76,7 +76,7 @@ static igabem_status solve_iteratively(const struct matrix *matrix, igabem_solut
         solution->memory += iteration_memory(iteration);
     }
     for (size_t f = 0; f < filters && status == IGABEM_OK; f++) {
-        const struct filter_change filter = {change, f - 1};
+        const struct one_change filter = {change, f - 1};
         const struct addend addend = {add_change, &filter};
         struct gmres_result result;
         if (f > 0)
@@ -94,7 +94,7 @@ static igabem_status solve_iteratively(const struct matrix *matrix, igabem_solut
 }
 
 igabem_status filters_solve(const struct matrix *matrix, igabem_solution *solution, size_t filters,
-                            const struct wave_change *change)
+                            const struct filter_change *change)
 {
     size_t n = matrix->n;
     igabem_solver wanted = solution->options.solver;

@@ -3,7 +3,7 @@
 #ifndef FILTERS_H
 #define FILTERS_H
 
-#include "influence/wave_change.h"
+#include "influence/filter_change.h"
 #include "solve/linear.h"
 #include "solve/solution.h"
 
@@ -15,6 +15,6 @@ size_t filters_of(const igabem_options *options, double cutoff[FILTERS_MOST]);
 /* Solves for solution->sigma and the further densities by the solver asked for; automatic choice
  * turns to LU where GMRES fails. The matrix may be replaced by its factors. */
 igabem_status filters_solve(const struct matrix *matrix, igabem_solution *solution, size_t filters,
-                            const struct wave_change *change);
+                            const struct filter_change *change);
 
 #endif

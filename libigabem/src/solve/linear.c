@@ -1,7 +1,7 @@
 #include "solve/linear.h"
 
 #include "core/error.h"
-#include "kelvin/wave_math.h"
+#include "core/vector_math.h"
 
 #include <lapacke.h>
 #include <limits.h>
@@ -80,7 +80,7 @@ struct iteration {
     double *buffer;     /* [n] */
 };
 
-WAVE_MULTIVERSION
+VECTOR_MULTIVERSION
 static double dot(size_t n, const double *a, const double *b)
 {
     double part[16] = {0}, sum = 0.0;
@@ -95,7 +95,7 @@ static double dot(size_t n, const double *a, const double *b)
     return sum;
 }
 
-WAVE_MULTIVERSION
+VECTOR_MULTIVERSION
 static void add(size_t n, double factor, const double *a, double *b)
 {
     for (size_t j = 0; j < n; j++)

@@ -26,7 +26,7 @@ static void add_weighted(const struct influence *influence, const double *weight
 /* Adds waterline and waves of one setting to rows; creates the operator of what the filters beyond
  * the first change in the matrix. */
 static igabem_status wave_rows(const struct influence *influence, const igabem_solution *solution,
-                               const double *weight, double *rows, struct wave_change **change)
+                               const double *weight, double *rows, struct filter_change **change)
 {
     const igabem_options *options = &solution->options;
     double cutoff[FILTERS_MOST];
@@ -48,7 +48,7 @@ static igabem_status wave_rows(const struct influence *influence, const igabem_s
 static igabem_status fill_rows(const struct influence *influence, const struct parts *parts,
                                struct progress *progress, double fraction,
                                const struct weights *weights, const igabem_solution *solution,
-                               double *rows, struct wave_change **change)
+                               double *rows, struct filter_change **change)
 {
     size_t n = influence->density->n;
     const double *image = formulation_has_image(&solution->options) ? weights->image : NULL;
@@ -74,8 +74,9 @@ static igabem_status fill_rows(const struct influence *influence, const struct p
 }
 
 /* Density and velocities from the rows, which are used up. */
-static igabem_status solve_rows(const struct influence *influence, const struct wave_change *change,
-                                double *rows, igabem_solution *solution)
+static igabem_status solve_rows(const struct influence *influence,
+                                const struct filter_change *change, double *rows,
+                                igabem_solution *solution)
 {
     size_t n = influence->density->n;
     const struct matrix matrix = {n, 3 * n, rows, influence->threads};
@@ -121,18 +122,18 @@ igabem_status setting_solve(const struct influence *influence, const struct part
     double *rows = calloc(3 * n * n, sizeof *rows);
     double *weight = malloc(2 * n * sizeof *weight);
     const struct weights weights = {weight, weight + n};
-    struct wave_change *change = NULL;
+    struct filter_change *change = NULL;
     igabem_status status = rows && weight ? IGABEM_OK : solution_no_memory(n);
     if (status == IGABEM_OK) {
         fill_weights(solution, &weights);
         status = fill_rows(influence, parts, progress, fraction, &weights, solution, rows, &change);
     }
     if (change)
-        solution->memory += wave_change_memory(change);
+        solution->memory += filter_change_memory(change);
     if (status == IGABEM_OK)
         status = solve_rows(influence, change, rows, solution);
     free(weight);
     free(rows);
-    wave_change_free(change);
+    filter_change_free(change);
     return status;
 }

@@ -1,7 +1,7 @@
 #include "space/cell.h"
 
 #include "core/error.h"
-#include "kelvin/wave_math.h"
+#include "core/vector_math.h"
 
 #include <nurbs/basis.h>
 
@@ -74,7 +74,7 @@ size_t nodes_append(struct nodes *nodes, const struct element *element, size_t m
     if (nodes->failed)
         return SIZE_MAX;
     if (nodes->n + m > nodes->capacity && !nodes_grow(nodes, nodes->n + m)) {
-        nodes->failed = 1;
+        nodes->failed = true;
         return SIZE_MAX;
     }
     struct block *last = nodes->blocks ? &nodes->block[nodes->blocks - 1] : NULL;
@@ -83,7 +83,7 @@ size_t nodes_append(struct nodes *nodes, const struct element *element, size_t m
             size_t capacity = nodes->block_capacity ? 2 * nodes->block_capacity : 64;
             struct block *block = realloc(nodes->block, capacity * sizeof *block);
             if (!block) {
-                nodes->failed = 1;
+                nodes->failed = true;
                 return SIZE_MAX;
             }
             nodes->block = block;
@@ -449,7 +449,7 @@ void nodes_fold(const struct nodes *nodes, double *f)
     }
 }
 
-WAVE_MULTIVERSION
+VECTOR_MULTIVERSION
 void nodes_scatter(const struct nodes *nodes, size_t fields, const double *k, size_t stride,
                    double *rows, size_t row_stride)
 {

@@ -25,7 +25,7 @@ struct domain {
     double across[2];      /* range of the other local parameter */
     enum domain_part part; /* along: all of [0,1], [0, root] or [root, 1] where x(root) = x */
     double x;
-    int ahead; /* lies at larger x than the plane (set by domain_cut) */
+    bool ahead; /* lies at larger x than the plane (set by domain_cut) */
 };
 
 void domain_whole(const struct element *element, struct domain *domain);
@@ -58,10 +58,10 @@ struct nodes {
     double *x, *y, *z; /* positions, m */
     double *g;         /* weight times area element over the homogeneous weight, m^2 */
     double *bu, *bv;   /* Bernstein polynomials in the two local parameters */
-    int with_normals;  /* set before the first node: fill the next array */
+    bool with_normals; /* set before the first node: fill the next array */
     double *normal;    /* [n][3] outward unit normals; on a waterline nu_x, length, 0 */
     struct block *block;
-    int failed; /* memory ran out: contents incomplete */
+    bool failed; /* memory ran out: contents incomplete */
 };
 
 void nodes_init(struct nodes *nodes, const struct mesh *mesh);

@@ -30,7 +30,7 @@ struct density {
     size_t patches;
     struct density_patch *patch;
     size_t n;         /* unknowns = collocation points */
-    int symmetric;    /* the mirror image in y radiates too */
+    bool symmetric;   /* the mirror image in y radiates too */
     double *point;    /* [n][3] collocation points */
     double *normal;   /* [n][3] outward unit normals there */
     size_t *owner;    /* [n] patch of a collocation point */

@@ -131,18 +131,18 @@ void line_near(const struct line *line, const struct line_segment *segment, cons
     divide(line, segment, range, rule, 0, nodes);
 }
 
-static int append(struct line *line, const struct line_segment *segment)
+static bool append(struct line *line, const struct line_segment *segment)
 {
     if (line->n == line->capacity) {
         size_t capacity = 2 * line->capacity + 64;
         struct line_segment *more = realloc(line->segment, capacity * sizeof *more);
         if (!more)
-            return 0;
+            return false;
         line->segment = more;
         line->capacity = capacity;
     }
     line->segment[line->n++] = *segment;
-    return 1;
+    return true;
 }
 
 /* Integral of the strength and its first moment over a range. */
@@ -174,8 +174,8 @@ static double segment_length(const struct line *line, const struct line_segment 
 
 /* Appends the segment in halves until the halves agree with the whole to 1e-7 m of unit strength
  * per metre of waterline. */
-static int append_smooth(struct line *line, const struct line_segment *segment, double tolerance,
-                         int depth, const struct gauss *gauss)
+static bool append_smooth(struct line *line, const struct line_segment *segment, double tolerance,
+                          int depth, const struct gauss *gauss)
 {
     double from = segment->range[0], to = segment->range[1], middle = 0.5 * (from + to);
     double whole[2], first[2], second[2];
@@ -192,8 +192,8 @@ static int append_smooth(struct line *line, const struct line_segment *segment, 
            append_smooth(line, &half[1], 0.5 * tolerance, depth + 1, gauss);
 }
 
-static int append_edge(struct line *line, const struct density *density, const struct mesh *mesh,
-                       size_t k, int edge, const struct gauss *gauss)
+static bool append_edge(struct line *line, const struct density *density, const struct mesh *mesh,
+                        size_t k, int edge, const struct gauss *gauss)
 {
     const struct density_patch *patch = &density->patch[k];
     int fixed = edge < HULL_V0 ? 0 : 1, end = edge == HULL_U1 || edge == HULL_V1;
@@ -206,9 +206,9 @@ static int append_edge(struct line *line, const struct density *density, const s
             .element = element, .fixed = fixed, .end = end, .range = {0.0, 1.0}};
         bound_segment(&segment);
         if (!append_smooth(line, &segment, 1e-7 * segment_length(line, &segment, gauss), 0, gauss))
-            return 0;
+            return false;
     }
-    return 1;
+    return true;
 }
 
 igabem_status line_create(const struct density *density, const struct mesh *mesh, double limit,

@@ -1,26 +1,26 @@
-#include "influence/wave_change.h"
+#include "influence/filter_change.h"
 
 #include "core/error.h"
-#include "kelvin/wave_math.h"
+#include "core/vector_math.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-igabem_status wave_change_create(size_t n, size_t points, size_t width, size_t filters, int threads,
-                                 struct wave_change **result)
+igabem_status filter_change_create(size_t n, size_t points, size_t width, size_t filters,
+                                   int threads, struct filter_change **result)
 {
     *result = NULL;
-    struct wave_change *change = malloc(sizeof *change);
+    struct filter_change *change = malloc(sizeof *change);
     if (!change)
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for a wave operator");
-    *change = (struct wave_change){
+    *change = (struct filter_change){
         .n = n, .points = points, .width = width, .filters = filters, .threads = threads};
     size_t partial = (size_t)threads * points;
     change->storage = calloc((filters + n + points) * width + partial, sizeof *change->storage);
     change->order = calloc(2 * n, sizeof *change->order);
     change->row = calloc(points + 1, sizeof *change->row);
     if (!change->storage || !change->order || !change->row) {
-        wave_change_free(change);
+        filter_change_free(change);
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for a wave operator of %zu unknowns", n);
     }
     change->rank = change->order + n;
@@ -32,7 +32,7 @@ igabem_status wave_change_create(size_t n, size_t points, size_t width, size_t f
     return IGABEM_OK;
 }
 
-void wave_change_free(struct wave_change *change)
+void filter_change_free(struct filter_change *change)
 {
     if (!change)
         return;
@@ -44,33 +44,33 @@ void wave_change_free(struct wave_change *change)
     free(change);
 }
 
-int wave_change_collect(struct wave_change *change, size_t index, double *buffer)
+bool filter_change_collect(struct filter_change *change, size_t index, double *buffer)
 {
-    struct wave_change_row *row = &change->row[index];
+    struct filter_change_row *row = &change->row[index];
     size_t n = change->n, count = 0;
     for (size_t k = 0; k < n * change->filters; k++)
         count += buffer[k] != 0.0;
-    struct wave_change_entry *entry = malloc((count + 1) * sizeof *entry);
+    struct filter_change_entry *entry = malloc((count + 1) * sizeof *entry);
     if (!entry)
-        return 0;
+        return false;
     row->entry = entry;
     for (size_t k = 0; k < n; k++) {
         double second = change->filters > 1 ? buffer[n + k] : 0.0;
         if (change->rank[k] >= row->ahead && (buffer[k] != 0.0 || second != 0.0))
-            entry[row->entries++] = (struct wave_change_entry){k, {buffer[k], second}};
+            entry[row->entries++] = (struct filter_change_entry){k, {buffer[k], second}};
     }
     memset(buffer, 0, n * change->filters * sizeof *buffer);
-    return 1;
+    return true;
 }
 
-WAVE_MULTIVERSION
+VECTOR_MULTIVERSION
 static void accumulate(size_t n, double factor, const double *from, double *to)
 {
     for (size_t j = 0; j < n; j++)
         to[j] += factor * from[j];
 }
 
-WAVE_MULTIVERSION
+VECTOR_MULTIVERSION
 static double triple_product(size_t n, const double *a, const double *b, const double *c)
 {
     double part[8] = {0}, sum = 0.0;
@@ -86,7 +86,7 @@ static double triple_product(size_t n, const double *a, const double *b, const d
 }
 
 /* The march over a part of the wave angles: fills result[points]. */
-static void march(const struct wave_change *change, size_t filter, size_t begin, size_t end,
+static void march(const struct filter_change *change, size_t filter, size_t begin, size_t end,
                   const double *x, double *result)
 {
     enum { CHUNK = 256 };
@@ -106,7 +106,8 @@ static void march(const struct wave_change *change, size_t filter, size_t begin,
     }
 }
 
-void wave_change_add(const struct wave_change *change, size_t filter, const double *x, double *y)
+void filter_change_add(const struct filter_change *change, size_t filter, const double *x,
+                       double *y)
 {
     size_t parts = (size_t)change->threads;
 #pragma omp parallel for num_threads(change->threads) schedule(static)
@@ -115,7 +116,7 @@ void wave_change_add(const struct wave_change *change, size_t filter, const doub
               change->partial + p * change->points);
 #pragma omp parallel for num_threads(change->threads) schedule(static)
     for (size_t i = 0; i < change->points; i++) {
-        const struct wave_change_row *row = &change->row[i];
+        const struct filter_change_row *row = &change->row[i];
         double sum = 0.0;
         for (size_t p = 0; p < parts; p++)
             sum += change->partial[p * change->points + i];
@@ -125,13 +126,13 @@ void wave_change_add(const struct wave_change *change, size_t filter, const doub
     }
 }
 
-void wave_change_expand(const struct wave_change *change, size_t filter, double *matrix)
+void filter_change_expand(const struct filter_change *change, size_t filter, double *matrix)
 {
     size_t n = change->n, width = change->width;
     memset(matrix, 0, n * n * sizeof *matrix);
 #pragma omp parallel for num_threads(change->threads) schedule(dynamic, 8)
     for (size_t i = 0; i < change->points; i++) {
-        const struct wave_change_row *row = &change->row[i];
+        const struct filter_change_row *row = &change->row[i];
         double *to = matrix + n * row->point;
         for (size_t k = 0; k < row->ahead; k++)
             to[change->order[k]] =
@@ -142,10 +143,10 @@ void wave_change_expand(const struct wave_change *change, size_t filter, double 
     }
 }
 
-double wave_change_memory(const struct wave_change *change)
+double filter_change_memory(const struct filter_change *change)
 {
     size_t bytes = (change->n + change->points) * change->width * sizeof(double);
     for (size_t i = 0; i < change->points; i++)
-        bytes += change->row[i].entries * sizeof(struct wave_change_entry);
+        bytes += change->row[i].entries * sizeof(struct filter_change_entry);
     return (double)bytes;
 }

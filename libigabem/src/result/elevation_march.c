@@ -1,15 +1,15 @@
-#include "result/wave_march.h"
+#include "result/elevation_march.h"
 
 #include "core/error.h"
-#include "kelvin/wave_math.h"
+#include "core/vector_math.h"
 #include "result/amplitude.h"
 
 #include <stdlib.h>
 
-igabem_status wave_march_create(double k0, int symmetric, double length, double beam, double t_max,
-                                double t_c, struct wave_march **march)
+igabem_status elevation_march_create(double k0, bool symmetric, double length, double beam,
+                                     double t_max, double t_c, struct elevation_march **march)
 {
-    struct wave_march *result = calloc(1, sizeof *result);
+    struct elevation_march *result = calloc(1, sizeof *result);
     *march = NULL;
     if (!result)
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for a wave field");
@@ -24,7 +24,7 @@ igabem_status wave_march_create(double k0, int symmetric, double length, double 
             status = igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu wave angles", result->n);
     }
     if (status) {
-        wave_march_free(result);
+        elevation_march_free(result);
         return status;
     }
     for (size_t j = 0; j < result->n; j++) {
@@ -39,7 +39,7 @@ igabem_status wave_march_create(double k0, int symmetric, double length, double 
     return IGABEM_OK;
 }
 
-void wave_march_free(struct wave_march *march)
+void elevation_march_free(struct elevation_march *march)
 {
     if (!march)
         return;
@@ -52,7 +52,7 @@ void wave_march_free(struct wave_march *march)
     free(march);
 }
 
-WAVE_MULTIVERSION
+VECTOR_MULTIVERSION
 static void sum_sources(double a, double b, double k, size_t n, const double *restrict x,
                         const double *restrict y, const double *restrict z,
                         const double *restrict q, double *restrict sums)
@@ -61,9 +61,9 @@ static void sum_sources(double a, double b, double k, size_t n, const double *re
 #pragma omp simd reduction(+ : er, ei, odd_r, odd_i)
     for (size_t j = 0; j < n; j++) {
         double s, c, sy, cy;
-        wave_sincos(k * x[j], &s, &c);
-        wave_sincos(b * y[j], &sy, &cy);
-        double e = q[j] * wave_exp(a * z[j]);
+        vector_sincos(k * x[j], &s, &c);
+        vector_sincos(b * y[j], &sy, &cy);
+        double e = q[j] * vector_exp(a * z[j]);
         er += e * c * cy;
         ei -= e * s * cy;
         odd_r += e * c * sy;
@@ -75,7 +75,7 @@ static void sum_sources(double a, double b, double k, size_t n, const double *re
     sums[3] = odd_i;
 }
 
-static void sums_at(const struct wave_march *march, size_t j, const struct point_set *set,
+static void sums_at(const struct elevation_march *march, size_t j, const struct point_set *set,
                     size_t begin, size_t end, double sums[4])
 {
     double t = march->t[j], a = march->k0 * (1.0 + t * t), k = march->k0 * sqrt(1.0 + t * t);
@@ -85,7 +85,8 @@ static void sums_at(const struct wave_march *march, size_t j, const struct point
         sums[i] *= 2.0;
 }
 
-void wave_march_add(struct wave_march *march, const struct point_set *set, size_t begin, size_t end)
+void elevation_march_add(struct elevation_march *march, const struct point_set *set, size_t begin,
+                         size_t end)
 {
     if (begin == end)
         return;
@@ -102,15 +103,15 @@ void wave_march_add(struct wave_march *march, const struct point_set *set, size_
     }
 }
 
-void wave_march_line(const struct wave_march *march, double x, const struct point_set *extra,
-                     double *even, double *odd)
+void elevation_march_line(const struct elevation_march *march, double x,
+                          const struct point_set *extra, double *even, double *odd)
 {
 #pragma omp parallel for schedule(static)
     for (size_t j = 0; j < march->n; j++) {
         double sums[4] = {0, 0, 0, 0}, s, c, t = march->t[j];
         if (extra && extra->n)
             sums_at(march, j, extra, 0, extra->n, sums);
-        wave_sincos(march->k0 * sqrt(1.0 + t * t) * x, &s, &c);
+        vector_sincos(march->k0 * sqrt(1.0 + t * t) * x, &s, &c);
         double scale = 2.0 * march->weight[j]; /* both signs of t */
         even[j] = scale * (c * (march->even_re[j] + sums[0]) - s * (march->even_im[j] + sums[1]));
         if (!march->symmetric)
@@ -118,7 +119,7 @@ void wave_march_line(const struct wave_march *march, double x, const struct poin
     }
 }
 
-WAVE_MULTIVERSION
+VECTOR_MULTIVERSION
 static double series(double k0, double y, size_t n, const double *restrict t,
                      const double *restrict even)
 {
@@ -126,14 +127,14 @@ static double series(double k0, double y, size_t n, const double *restrict t,
 #pragma omp simd reduction(+ : sum)
     for (size_t j = 0; j < n; j++) {
         double s, c;
-        wave_sincos(k0 * sqrt(1.0 + t[j] * t[j]) * t[j] * y, &s, &c);
+        vector_sincos(k0 * sqrt(1.0 + t[j] * t[j]) * t[j] * y, &s, &c);
         sum += even[j] * c;
     }
     return sum;
 }
 
-double wave_march_value(const struct wave_march *march, const double *even, const double *odd,
-                        double y)
+double elevation_march_value(const struct elevation_march *march, const double *even,
+                             const double *odd, double y)
 {
     double sum = series(march->k0, y, march->n, march->t, even);
     for (size_t j = 0; !march->symmetric && j < march->n; j++) {

@@ -1,4 +1,4 @@
-#include "result/wave_pieces.h"
+#include "result/elevation_pieces.h"
 
 #include "core/error.h"
 
@@ -18,7 +18,7 @@ static const double DECAY = 4.0;     /* units of exponent per rule */
 static const double VANISHED = 30.0; /* exponent beyond which a wave angle no longer counts */
 static const double NEAR = 1.2;      /* diagonals between a point and a rule */
 
-int point_set_add(struct point_set *set, double x, double y, double z, double q)
+bool point_set_add(struct point_set *set, double x, double y, double z, double q)
 {
     if (set->n == set->room) {
         size_t room = 2 * set->room + 256;
@@ -26,7 +26,7 @@ int point_set_add(struct point_set *set, double x, double y, double z, double q)
         for (int k = 0; k < 4; k++) {
             double *more = realloc(*arrays[k], room * sizeof *more);
             if (!more)
-                return 0;
+                return false;
             *arrays[k] = more;
         }
         set->room = room;
@@ -35,7 +35,7 @@ int point_set_add(struct point_set *set, double x, double y, double z, double q)
     set->y[set->n] = y;
     set->z[set->n] = z;
     set->q[set->n++] = q;
-    return 1;
+    return true;
 }
 
 void point_set_clear(struct point_set *set)
@@ -57,7 +57,7 @@ struct source {
     double strength; /* per unit of the local parameters */
 };
 
-static double gathered_density(const struct wave_piece *piece, const struct jet *jet, double s,
+static double gathered_density(const struct elevation_piece *piece, const struct jet *jet, double s,
                                double t)
 {
     double bs[ELEMENT_SIDE], bt[ELEMENT_SIDE], sum = 0.0;
@@ -72,8 +72,8 @@ static double gathered_density(const struct wave_piece *piece, const struct jet 
 
 /* Surface point at local (s,t): U n_x where nothing is solved, else the density; a thin ship's in
  * the centre plane. */
-static struct source surface_source(const struct wave_pieces *pieces,
-                                    const struct wave_piece *piece, double s, double t)
+static struct source surface_source(const struct elevation_pieces *pieces,
+                                    const struct elevation_piece *piece, double s, double t)
 {
     const igabem_solution *solution = pieces->solution;
     struct jet jet;
@@ -91,8 +91,8 @@ static struct source surface_source(const struct wave_pieces *pieces,
 }
 
 /* Waterline point: -(1/k0) chi sigma n_x nu_x dl. */
-static struct source line_source(const struct wave_pieces *pieces, const struct wave_piece *piece,
-                                 double s)
+static struct source line_source(const struct elevation_pieces *pieces,
+                                 const struct elevation_piece *piece, double s)
 {
     const igabem_solution *solution = pieces->solution;
     int along_t = piece->edge == HULL_U0 || piece->edge == HULL_U1;
@@ -115,8 +115,8 @@ static struct source line_source(const struct wave_pieces *pieces, const struct 
     return source;
 }
 
-static struct source piece_source(const struct wave_pieces *pieces, const struct wave_piece *piece,
-                                  double s, double t)
+static struct source piece_source(const struct elevation_pieces *pieces,
+                                  const struct elevation_piece *piece, double s, double t)
 {
     return piece->edge < 0 ? surface_source(pieces, piece, s, t) : line_source(pieces, piece, s);
 }
@@ -130,9 +130,9 @@ struct window {
     double s0, s1, t0, t1;
 };
 
-static int add_row(const struct wave_pieces *pieces, const struct wave_piece *piece,
-                   const struct rule *rule, int along_t, double fixed, double from, double to,
-                   double weight, struct point_set *set)
+static bool add_row(const struct elevation_pieces *pieces, const struct elevation_piece *piece,
+                    const struct rule *rule, int along_t, double fixed, double from, double to,
+                    double weight, struct point_set *set)
 {
     for (int i = 0; i < RULE; i++) {
         double moving = from + (to - from) * rule->node[i];
@@ -140,13 +140,13 @@ static int add_row(const struct wave_pieces *pieces, const struct wave_piece *pi
                                        : piece_source(pieces, piece, moving, fixed);
         if (!point_set_add(set, source.at[0], source.at[1], source.at[2],
                            weight * (to - from) * rule->weight[i] * source.strength))
-            return 0;
+            return false;
     }
-    return 1;
+    return true;
 }
 
 /* Where x = x_cut along a row between from and to, by the Illinois rule; the ends bracket it. */
-static double find_cut(const struct wave_pieces *pieces, const struct wave_piece *piece,
+static double find_cut(const struct elevation_pieces *pieces, const struct elevation_piece *piece,
                        int along_t, double fixed, double from, double to, double f_from,
                        double f_to, double x_cut)
 {
@@ -177,9 +177,9 @@ static double find_cut(const struct wave_pieces *pieces, const struct wave_piece
 }
 
 /* One window; rows run in the direction in which x changes most and are divided at x_cut. */
-static int add_window(const struct wave_pieces *pieces, const struct wave_piece *piece,
-                      const struct rule *rule, const struct window *w, double x_cut,
-                      struct point_set *set)
+static bool add_window(const struct elevation_pieces *pieces, const struct elevation_piece *piece,
+                       const struct rule *rule, const struct window *w, double x_cut,
+                       struct point_set *set)
 {
     double sm = 0.5 * (w->s0 + w->s1), tm = 0.5 * (w->t0 + w->t1);
     int line = piece->edge >= 0, along_t = 0;
@@ -213,9 +213,9 @@ static int add_window(const struct wave_pieces *pieces, const struct wave_piece 
         if (!divided)
             ok = add_row(pieces, piece, rule, along_t, fixed, from, to, weight, set);
         if (!ok)
-            return 0;
+            return false;
     }
-    return 1;
+    return true;
 }
 
 static struct rule make_rule(void)
@@ -225,27 +225,27 @@ static struct rule make_rule(void)
     return rule;
 }
 
-int wave_piece_sources(const struct wave_pieces *pieces, size_t index, double x_cut,
-                       struct point_set *set)
+bool elevation_piece_sources(const struct elevation_pieces *pieces, size_t index, double x_cut,
+                             struct point_set *set)
 {
-    const struct wave_piece *piece = &pieces->piece[index];
+    const struct elevation_piece *piece = &pieces->piece[index];
     struct rule rule = make_rule();
     for (int i = 0; i < piece->parts[0]; i++)
         for (int j = 0; j < piece->parts[1]; j++) {
             struct window w = {i / (double)piece->parts[0], (i + 1) / (double)piece->parts[0],
                                j / (double)piece->parts[1], (j + 1) / (double)piece->parts[1]};
             if (!add_window(pieces, piece, &rule, &w, x_cut, set))
-                return 0;
+                return false;
         }
-    return 1;
+    return true;
 }
 
 struct bounds {
     double lower[3], upper[3], diagonal;
 };
 
-static struct bounds window_bounds(const struct wave_pieces *pieces, const struct wave_piece *piece,
-                                   const struct window *w)
+static struct bounds window_bounds(const struct elevation_pieces *pieces,
+                                   const struct elevation_piece *piece, const struct window *w)
 {
     struct bounds b = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0.0};
     int columns = piece->edge >= 0 ? 1 : LATTICE;
@@ -274,14 +274,14 @@ static double box_distance(const double lower[3], const double upper[3], double 
     return sqrt(square);
 }
 
-double wave_piece_distance(const struct wave_piece *piece, double x, double y)
+double elevation_piece_distance(const struct elevation_piece *piece, double x, double y)
 {
     return box_distance(piece->lower, piece->upper, x, y);
 }
 
-static int refine(const struct wave_pieces *pieces, const struct wave_piece *piece,
-                  const struct rule *rule, const struct window *w, double x, double y, int depth,
-                  struct point_set *set)
+static bool refine(const struct elevation_pieces *pieces, const struct elevation_piece *piece,
+                   const struct rule *rule, const struct window *w, double x, double y, int depth,
+                   struct point_set *set)
 {
     struct bounds b = window_bounds(pieces, piece, w);
     if (depth >= DEPTH_MAX || box_distance(b.lower, b.upper, x, y) > NEAR * b.diagonal)
@@ -296,13 +296,13 @@ static int refine(const struct wave_pieces *pieces, const struct wave_piece *pie
         struct window quarter = {q & 1 ? sm : w->s0, q & 1 ? w->s1 : sm, q & 2 ? tm : w->t0,
                                  q & 2 ? w->t1 : tm};
         if (!refine(pieces, piece, rule, &quarter, x, y, depth + 1, set))
-            return 0;
+            return false;
     }
-    return 1;
+    return true;
 }
 
-int wave_piece_near_sources(const struct wave_pieces *pieces, size_t index, double x, double y,
-                            struct point_set *set)
+bool elevation_piece_near_sources(const struct elevation_pieces *pieces, size_t index, double x,
+                                  double y, struct point_set *set)
 {
     struct rule rule = make_rule();
     struct window whole = {0.0, 1.0, 0.0, 1.0};
@@ -310,7 +310,7 @@ int wave_piece_near_sources(const struct wave_pieces *pieces, size_t index, doub
 }
 
 /* Divisions that keep phase and decay within one rule at every angle that counts at this depth. */
-static void measure(const struct wave_pieces *pieces, struct wave_piece *piece)
+static void measure(const struct elevation_pieces *pieces, struct elevation_piece *piece)
 {
     struct window whole = {0.0, 1.0, 0.0, 1.0};
     struct bounds b = window_bounds(pieces, piece, &whole);
@@ -346,14 +346,14 @@ static void measure(const struct wave_pieces *pieces, struct wave_piece *piece)
     }
 }
 
-static int has_line_term(const igabem_solution *solution)
+static bool has_line_term(const igabem_solution *solution)
 {
     return solution->options.line_term && solution->info.surface_piercing &&
            solution->formulation->line_term;
 }
 
 /* Whether an element touches an edge of its patch. */
-static int touches(const struct density_patch *patch, const struct element *element, int edge)
+static bool touches(const struct density_patch *patch, const struct element *element, int edge)
 {
     int d = edge == HULL_U0 || edge == HULL_U1 ? 0 : 1;
     int last = edge == HULL_U1 || edge == HULL_V1;
@@ -361,13 +361,13 @@ static int touches(const struct density_patch *patch, const struct element *elem
     return last ? element->upper[d] >= bound : element->lower[d] <= bound;
 }
 
-static void collect(struct wave_pieces *pieces)
+static void collect(struct elevation_pieces *pieces)
 {
     const igabem_solution *solution = pieces->solution;
     for (size_t e = 0; e < pieces->mesh->n; e++) {
         const struct element *element = &pieces->mesh->element[e];
         const struct density_patch *patch = &solution->density->patch[element->patch];
-        struct wave_piece piece = {.element = element, .edge = -1};
+        struct elevation_piece piece = {.element = element, .edge = -1};
         element_gather(element, solution->sigma, piece.sigma);
         measure(pieces, &piece);
         pieces->piece[pieces->n++] = piece;
@@ -381,10 +381,10 @@ static void collect(struct wave_pieces *pieces)
     }
 }
 
-igabem_status wave_pieces_create(const igabem_solution *solution, double t_max,
-                                 struct wave_pieces **pieces)
+igabem_status elevation_pieces_create(const igabem_solution *solution, double t_max,
+                                      struct elevation_pieces **pieces)
 {
-    struct wave_pieces *result = calloc(1, sizeof *result);
+    struct elevation_pieces *result = calloc(1, sizeof *result);
     *pieces = NULL;
     if (!result)
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for the elements of the hull");
@@ -398,7 +398,7 @@ igabem_status wave_pieces_create(const igabem_solution *solution, double t_max,
                 igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu elements", result->mesh->n);
     }
     if (status) {
-        wave_pieces_free(result);
+        elevation_pieces_free(result);
         return status;
     }
     collect(result);
@@ -406,7 +406,7 @@ igabem_status wave_pieces_create(const igabem_solution *solution, double t_max,
     return IGABEM_OK;
 }
 
-void wave_pieces_free(struct wave_pieces *pieces)
+void elevation_pieces_free(struct elevation_pieces *pieces)
 {
     if (!pieces)
         return;

@@ -1,8 +1,8 @@
 /* Exponential, sine and cosine that vectorise: no branches, no integer conversion, no library call.
- * Compiled once per instruction set where the loader can choose (WAVE_MULTIVERSION); not by clang
+ * Compiled once per instruction set where the loader can choose (VECTOR_MULTIVERSION); not by clang
  * 14, which loses multiversioned functions that another file calls. */
-#ifndef WAVE_MATH_H
-#define WAVE_MATH_H
+#ifndef VECTOR_MATH_H
+#define VECTOR_MATH_H
 
 #include <math.h>
 #include <stdint.h>
@@ -10,16 +10,16 @@
 
 #if defined(__x86_64__) && defined(__linux__) && !defined(__clang__) &&                            \
     !defined(ISOHULL_NO_MULTIVERSION)
-#define WAVE_MULTIVERSION                                                                          \
+#define VECTOR_MULTIVERSION                                                                        \
     __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #else
-#define WAVE_MULTIVERSION
+#define VECTOR_MULTIVERSION
 #endif
-#define WAVE_INLINE static inline __attribute__((always_inline))
+#define VECTOR_INLINE static inline __attribute__((always_inline))
 
 /* e^x for -700 <= x <= 700, relative error below 4e-16: 2^n times the Taylor polynomial of degree
  * 12 on |r| <= ln(2)/2. */
-WAVE_INLINE double wave_exp(double x)
+VECTOR_INLINE double vector_exp(double x)
 {
     const double shifter = 6755399441055744.0; /* 1.5 * 2^52: leaves an integer in the low bits */
     x = x > -700.0 ? x : -700.0;
@@ -50,7 +50,7 @@ WAVE_INLINE double wave_exp(double x)
 
 /* sin x and cos x for |x| < 1e6, absolute error below 1e-15 + 1e-16 |x|: Taylor polynomials on
  * |r| <= pi/4 after reduction by multiples of pi/2. */
-WAVE_INLINE void wave_sincos(double x, double *sine, double *cosine)
+VECTOR_INLINE void vector_sincos(double x, double *sine, double *cosine)
 {
     double n = rint(x * 0.63661977236758134308);
     double r = x - n * 1.57079632673412561417e+00;

@@ -1,4 +1,4 @@
-#include "result/wave_tree.h"
+#include "result/elevation_tree.h"
 
 #include "core/constants.h"
 #include "core/error.h"
@@ -20,8 +20,8 @@ struct node {
     size_t proxies, first_proxy;
 };
 
-struct wave_tree {
-    const struct wave_pieces *pieces;
+struct elevation_tree {
+    const struct elevation_pieces *pieces;
     const struct point_set *set;
     const size_t *first;
     size_t *order;
@@ -30,14 +30,14 @@ struct wave_tree {
     struct point_set proxy;
 };
 
-static void node_bounds(const struct wave_tree *tree, struct node *node)
+static void node_bounds(const struct elevation_tree *tree, struct node *node)
 {
     for (int k = 0; k < 3; k++) {
         node->lower[k] = INFINITY;
         node->upper[k] = -INFINITY;
     }
     for (size_t i = node->begin; i < node->end; i++) {
-        const struct wave_piece *piece = &tree->pieces->piece[tree->order[i]];
+        const struct elevation_piece *piece = &tree->pieces->piece[tree->order[i]];
         for (int k = 0; k < 3; k++) {
             node->lower[k] = fmin(node->lower[k], piece->lower[k]);
             node->upper[k] = fmax(node->upper[k], piece->upper[k]);
@@ -73,7 +73,7 @@ static void lagrange(int n, const double *nodes, double x, double *values)
 }
 
 /* Equivalent sources of a node. */
-static int add_proxies(struct wave_tree *tree, struct node *node)
+static bool add_proxies(struct elevation_tree *tree, struct node *node)
 {
     double at[3][MAX_NODES], longest = 0.0;
     int count[3];
@@ -89,7 +89,7 @@ static int add_proxies(struct wave_tree *tree, struct node *node)
         for (int b = 0; b < count[1]; b++)
             for (int c = 0; c < count[2]; c++)
                 if (!point_set_add(&tree->proxy, at[0][a], at[1][b], at[2][c], 0.0))
-                    return 0;
+                    return false;
     double *q = tree->proxy.q + node->first_proxy;
     for (size_t i = node->begin; i < node->end; i++) {
         size_t piece = tree->order[i];
@@ -105,11 +105,11 @@ static int add_proxies(struct wave_tree *tree, struct node *node)
                         q[k++] += tree->set->q[j] * l[0][a] * l[1][b] * l[2][c];
         }
     }
-    return 1;
+    return true;
 }
 
 /* Orders the pieces of a node about the middle of its longest side; returns the dividing index. */
-static size_t divide(struct wave_tree *tree, const struct node *node)
+static size_t divide(struct elevation_tree *tree, const struct node *node)
 {
     int longest = 0;
     for (int k = 1; k < 3; k++)
@@ -118,7 +118,7 @@ static size_t divide(struct wave_tree *tree, const struct node *node)
     double middle = 0.5 * (node->upper[longest] + node->lower[longest]);
     size_t low = node->begin, high = node->end;
     while (low < high) {
-        const struct wave_piece *piece = &tree->pieces->piece[tree->order[low]];
+        const struct elevation_piece *piece = &tree->pieces->piece[tree->order[low]];
         if (0.5 * (piece->lower[longest] + piece->upper[longest]) < middle) {
             low++;
         } else {
@@ -131,7 +131,7 @@ static size_t divide(struct wave_tree *tree, const struct node *node)
 }
 
 /* Builds the subtree over order[begin..end); returns its index, -1 when out of memory. */
-static int build(struct wave_tree *tree, size_t begin, size_t end)
+static int build(struct elevation_tree *tree, size_t begin, size_t end)
 {
     int index = (int)tree->n_nodes++;
     struct node *node = &tree->node[index];
@@ -147,10 +147,11 @@ static int build(struct wave_tree *tree, size_t begin, size_t end)
     return node->child[0] < 0 || node->child[1] < 0 ? -1 : index;
 }
 
-igabem_status wave_tree_create(const struct wave_pieces *pieces, const struct point_set *set,
-                               const size_t *first, struct wave_tree **tree)
+igabem_status elevation_tree_create(const struct elevation_pieces *pieces,
+                                    const struct point_set *set, const size_t *first,
+                                    struct elevation_tree **tree)
 {
-    struct wave_tree *result = calloc(1, sizeof *result);
+    struct elevation_tree *result = calloc(1, sizeof *result);
     *tree = NULL;
     if (result) {
         result->pieces = pieces;
@@ -165,14 +166,14 @@ igabem_status wave_tree_create(const struct wave_pieces *pieces, const struct po
     if (built)
         built = build(result, 0, pieces->n) >= 0;
     if (!built) {
-        wave_tree_free(result);
+        elevation_tree_free(result);
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for a tree of %zu pieces", pieces->n);
     }
     *tree = result;
     return IGABEM_OK;
 }
 
-void wave_tree_free(struct wave_tree *tree)
+void elevation_tree_free(struct elevation_tree *tree)
 {
     if (!tree)
         return;
@@ -200,48 +201,49 @@ static double half_diagonal(const struct node *node)
     return sqrt(square);
 }
 
-static int add_range(const struct point_set *from, size_t begin, size_t end, struct point_set *set)
+static bool add_range(const struct point_set *from, size_t begin, size_t end, struct point_set *set)
 {
     for (size_t j = begin; j < end; j++)
         if (!point_set_add(set, from->x[j], from->y[j], from->z[j], from->q[j]))
-            return 0;
-    return 1;
+            return false;
+    return true;
 }
 
-igabem_status wave_cut_create(size_t pieces, struct wave_cut *cut)
+igabem_status elevation_cut_create(size_t pieces, struct elevation_cut *cut)
 {
-    *cut = (struct wave_cut){{0}, calloc(pieces, sizeof(size_t)), calloc(pieces, sizeof(size_t))};
+    *cut =
+        (struct elevation_cut){{0}, calloc(pieces, sizeof(size_t)), calloc(pieces, sizeof(size_t))};
     if (cut->first && cut->last)
         return IGABEM_OK;
-    wave_cut_free(cut);
+    elevation_cut_free(cut);
     return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu pieces", pieces);
 }
 
-void wave_cut_free(struct wave_cut *cut)
+void elevation_cut_free(struct elevation_cut *cut)
 {
     point_set_free(&cut->set);
     free(cut->first);
     free(cut->last);
-    *cut = (struct wave_cut){{0}, NULL, NULL};
+    *cut = (struct elevation_cut){{0}, NULL, NULL};
 }
 
-int wave_cut_line(const struct wave_pieces *pieces, double x, struct wave_cut *cut)
+bool elevation_cut_line(const struct elevation_pieces *pieces, double x, struct elevation_cut *cut)
 {
     point_set_clear(&cut->set);
     for (size_t i = 0; i < pieces->n; i++) {
-        const struct wave_piece *piece = &pieces->piece[i];
+        const struct elevation_piece *piece = &pieces->piece[i];
         cut->first[i] = cut->set.n;
         if (piece->lower[0] < x && x < piece->upper[0] &&
-            !wave_piece_sources(pieces, i, x, &cut->set))
-            return 0;
+            !elevation_piece_sources(pieces, i, x, &cut->set))
+            return false;
         cut->last[i] = cut->set.n;
     }
-    return 1;
+    return true;
 }
 
 /* Gathers the sources that stand for the tree as seen from (x, y, 0). */
-static int gather(const struct wave_tree *tree, const struct wave_cut *cut, int index, double x,
-                  double y, struct point_set *set)
+static bool gather(const struct elevation_tree *tree, const struct elevation_cut *cut, int index,
+                   double x, double y, struct point_set *set)
 {
     const struct node *node = &tree->node[index];
     int divided = x > node->lower[0] && x < node->upper[0];
@@ -251,9 +253,9 @@ static int gather(const struct wave_tree *tree, const struct wave_cut *cut, int 
         return gather(tree, cut, node->child[0], x, y, set) &&
                gather(tree, cut, node->child[1], x, y, set);
     size_t piece = tree->order[node->begin];
-    const struct wave_piece *p = &tree->pieces->piece[piece];
-    if (wave_piece_distance(p, x, y) <= NEAR * p->diagonal)
-        return wave_piece_near_sources(tree->pieces, piece, x, y, set);
+    const struct elevation_piece *p = &tree->pieces->piece[piece];
+    if (elevation_piece_distance(p, x, y) <= NEAR * p->diagonal)
+        return elevation_piece_near_sources(tree->pieces, piece, x, y, set);
     if (divided)
         return add_range(&cut->set, cut->first[piece], cut->last[piece], set);
     return add_range(tree->set, tree->first[piece], tree->first[piece + 1], set);
@@ -269,9 +271,9 @@ static void to_offsets(struct point_set *set, double k0, double x, double y)
     }
 }
 
-igabem_status wave_tree_local(const struct wave_tree *tree, const struct wave_cut *cut, double k0,
-                              int symmetric, double x, double y, struct point_set *scratch,
-                              double *sum)
+igabem_status elevation_tree_local(const struct elevation_tree *tree,
+                                   const struct elevation_cut *cut, double k0, bool symmetric,
+                                   double x, double y, struct point_set *scratch, double *sum)
 {
     enum { BATCH = 256 };
     double gradient[BATCH];
