@@ -107,7 +107,7 @@ static void test_overrides(void)
 {
     struct config c;
     char path[200];
-    struct config_overrides overrides = {5, SIZE_MAX};
+    struct config_overrides overrides = {5, -1};
     CU_ASSERT_TRUE_FATAL(read_text(MINIMAL, &c));
     config_free(&c);
     snprintf(path, sizeof path, "%s/run.yaml", folder);

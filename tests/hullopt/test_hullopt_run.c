@@ -243,7 +243,8 @@ static void test_existing_run(void)
 static void test_usage(void)
 {
     const char *const nothing[] = {NULL}, *const unknown[] = {"walk", NULL};
-    const char *const no_out[] = {"run", config, NULL}, *const option[] = {"run", "--fast", NULL};
+    const char *const no_out[] = {"run", config, NULL}, *const option[] = {"report", "a", "--fast",
+                                                                           NULL};
     const char *const threads[] = {"run", config, "--out", out, "--threads", "0", NULL};
     const char *const two[] = {"report", "a", "b", NULL};
     check_refusal(nothing, 2, "no command");
@@ -251,7 +252,7 @@ static void test_usage(void)
     check_refusal(no_out, 2, "--out");
     check_refusal(option, 2, "--fast");
     check_refusal(threads, 2, "--threads");
-    check_refusal(two, 2, "one argument");
+    check_refusal(two, 2, "a word too many");
     const char *const help[] = {"--help", NULL}, *const version[] = {"--version", NULL};
     CU_ASSERT_EQUAL(runner_run(&runner, help), 0);
     CU_ASSERT_PTR_NOT_NULL(strstr(runner.out, "--resume"));
@@ -328,8 +329,43 @@ static void test_bad_settings(void)
              WIGLEY);
     runner_write(&runner, "bad.yaml", text);
     check_refusal(run, 1, "constraints.pressure needs a resistance by pressure");
+    snprintf(text, sizeof text,
+             "hull: %s\nshape: " EXAMPLES_DIR "/wigley_shape.yaml\nflow: {froude: 0.3}\n"
+             "grid: {sections: 21, girth: 9}\nsolver: {formulation: neumann-kelvin-stern}\n",
+             WIGLEY);
+    runner_write(&runner, "bad.yaml", text);
+    check_refusal(run, 1, "has no immersed transom");
     const char *const missing[] = {"run", "/nonexistent.yaml", "--out", fresh, NULL};
     check_refusal(missing, 1, "/nonexistent.yaml: No such file");
+}
+
+/* A template is read back; a check tells what a run would do and writes nothing. */
+static void test_init_and_check(void)
+{
+    char written[200];
+    runner_path(&runner, "template.yaml", written, sizeof written);
+    const char *const init[] = {
+        "init", WIGLEY, EXAMPLES_DIR "/wigley_shape.yaml", "--fr", "0.3", "-o", written, NULL};
+    CU_ASSERT_EQUAL(runner_run(&runner, init), 0);
+    check_refusal(init, 1, "exists");
+    const char *const template[] = {"check", written, NULL};
+    check_refusal(template, 1, "grid.sections is missing");
+    const char *const print[] = {"init", NULL};
+    CU_ASSERT_EQUAL(runner_run(&runner, print), 0);
+    CU_ASSERT_PTR_NOT_NULL(strstr(runner.out, "\n  # U/sqrt(g L); a number between 0 and 10"));
+    CU_ASSERT_PTR_NOT_NULL(strstr(runner.out, "\n  froude: \n"));
+    runner_configuration(&runner, "plan.yaml", WIGLEY, 8, 5, "");
+    runner_path(&runner, "plan.yaml", written, sizeof written);
+    CU_ASSERT_EQUAL(runner_run(&runner, template), 0);
+    CU_ASSERT_PTR_NOT_NULL(strstr(runner.out, "displacement: ±5 %"));
+    CU_ASSERT_PTR_NOT_NULL(strstr(runner.out, "8 designs, then 5 proposals"));
+    const char *const json[] = {"check", written, "--json", NULL};
+    CU_ASSERT_EQUAL(runner_run(&runner, json), 0);
+    json_t *plan = json_loads(runner.out, 0, NULL);
+    CU_ASSERT_EQUAL(json_integer_value(json_object_get(plan, "evaluations")), 14);
+    CU_ASSERT_EQUAL(json_integer_value(json_object_get(plan, "parameters")), 6);
+    CU_ASSERT_TRUE(json_real_value(json_object_get(plan, "cw")) > 0);
+    json_decref(plan);
 }
 
 static void test_bad_folders(void)
@@ -373,6 +409,7 @@ static const struct check_case cases[] = {
     {"usage", test_usage},
     {"bad hulls", test_bad_hulls},
     {"bad settings", test_bad_settings},
+    {"init and check", test_init_and_check},
     {"bad folders", test_bad_folders},
     {"damaged database", test_damaged_database},
 };

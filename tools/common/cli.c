@@ -82,6 +82,15 @@ void cli_set_threads(int threads)
     openblas_set_num_threads(threads);
 }
 
+int cli_threads(void)
+{
+#ifdef _OPENMP
+    return omp_get_max_threads();
+#else
+    return 1;
+#endif
+}
+
 bool cli_parse_double(const char *text, double *out)
 {
     char *end;

@@ -30,6 +30,8 @@ int cli_version(void);
 
 /* Applies --threads N to OpenMP and OpenBLAS alike. */
 void cli_set_threads(int threads);
+/* How many OpenMP uses. */
+int cli_threads(void);
 
 /* Strict numbers: the whole string, finite; false leaves *out alone. */
 bool cli_parse_double(const char *text, double *out);

@@ -74,7 +74,7 @@ static void print_entry(const struct setting *row, const void *at, size_t i, FIL
         fputs(word, out);
     else if (row->type == SETTING_COUNT)
         fprintf(out, "%zu", ((const size_t *)at)[i]);
-    else
+    else if (!isnan(value))
         fprintf(out, "%.15g", value);
 }
 

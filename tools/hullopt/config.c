@@ -83,8 +83,8 @@ static const struct setting ROWS[] = {
         .words = AUTO),
     ROW("solver.cutoff_angle", NUMBER, solver.cutoff_angle,
         "tangent of the angle of the short-wave filter", SETTING_ABOVE(0), .words = BY_RULE),
-    ROW("solver.cutoff_factor", NUMBER, solver.cutoff_factor, "the same over that of the entrance",
-        SETTING_ABOVE(0)),
+    ROW("solver.cutoff_factor", NUMBER, solver.cutoff_factor,
+        "that angle times nu_s of the entrance, where it is by rule", SETTING_ABOVE(0)),
     ROW("solver.stem_limit", NUMBER, solver.stem_limit,
         "slope of the waterline at which the line term fades", SETTING_ABOVE(0), .words = BY_RULE),
     ROW("solver.stern_length", NUMBER, solver.stern_length,
@@ -136,13 +136,12 @@ bool config_read(const char *path, const struct config_overrides *overrides, str
 {
     *config = (struct config){.path = strdup(path)};
     igabem_options_init(&config->solver);
-    config->solver.refine = 1;
     settings_start(&CONFIG, config);
     bool ok = config->path && settings_read(path, &CONFIG, config);
-    if (ok && overrides && overrides->initial != SIZE_MAX)
-        config->initial = overrides->initial;
-    if (ok && overrides && overrides->iterations != SIZE_MAX)
-        config->iterations = overrides->iterations;
+    if (overrides && overrides->initial >= 0)
+        config->initial = (size_t)overrides->initial;
+    if (overrides && overrides->iterations >= 0)
+        config->iterations = (size_t)overrides->iterations;
     ok = ok && ((config->text = settings_text(&CONFIG, config)) != NULL ||
                 cli_refuse("%s: an input file cannot be read", path));
     if (!ok)

@@ -48,9 +48,9 @@ struct config {
 
 extern const struct settings CONFIG;
 
-/* Command-line replacements of two fields of the file; SIZE_MAX: not given. */
+/* Command-line replacements of two fields of the file; -1: not given. */
 struct config_overrides {
-    size_t initial, iterations;
+    int initial, iterations;
 };
 
 /* Reads and checks everything that needs no geometry. Prints a sentence with file, line and field

@@ -1,6 +1,5 @@
-#include "cli/run.h"
-
 #include "cli.h"
+#include "cli/commands.h"
 #include "cli/folder.h"
 #include "core/optimise.h"
 #include "core/search.h"
@@ -36,8 +35,8 @@ static bool say(bool ok)
 }
 
 /* A new run or an old one; refuses what would mix two. */
-static bool prepare(const struct run_options *options, struct problem *problem,
-                    const galv_shape *shape, const char *path, const struct core_watch *watch)
+static bool prepare(const struct options *options, struct problem *problem, const galv_shape *shape,
+                    const char *path, const struct core_watch *watch)
 {
     if (access(path, F_OK) != 0)
         return say(optimise_begin(problem, shape, path, watch));
@@ -53,7 +52,7 @@ static bool prepare(const struct run_options *options, struct problem *problem,
                       options->out);
 }
 
-static bool report(const struct run_options *options, struct problem *problem,
+static bool report(const struct options *options, struct problem *problem,
                    const struct record *record)
 {
     struct results results;
@@ -64,12 +63,12 @@ static bool report(const struct run_options *options, struct problem *problem,
     return ok;
 }
 
-static bool work(const struct run_options *options, struct problem *problem,
-                 const galv_shape *shape, const char *path, const struct core_watch *watch)
+static bool work(const struct options *options, struct problem *problem, const galv_shape *shape,
+                 const char *path, const struct core_watch *watch)
 {
     struct record record;
     bool ok = say(search_open(problem, path, &record));
-    ok = ok && say(record_begin_session(&record, options->threads, options->start) &&
+    ok = ok && say(record_begin_session(&record, cli_threads(), options->start) &&
                    optimise_run(problem, shape, &record, watch));
     cli_progress_end(&((struct watch *)watch->user_data)->progress);
     ok = ok && report(options, problem, &record);
@@ -77,7 +76,7 @@ static bool work(const struct run_options *options, struct problem *problem,
     return ok;
 }
 
-static bool run_in_folder(const struct run_options *options, struct problem *problem,
+static bool run_in_folder(const struct options *options, struct problem *problem,
                           const galv_shape *shape)
 {
     struct folder folder;
@@ -96,11 +95,11 @@ static bool run_in_folder(const struct run_options *options, struct problem *pro
     return ok;
 }
 
-int run_command(const struct run_options *options)
+int run_command(const struct options *options)
 {
     struct config config;
     struct problem problem;
-    if (!config_read(options->configuration, &options->overrides, &config))
+    if (!config_read(options->path, &options->overrides, &config))
         return CLI_FAILED;
     bool ok = say(problem_read(&config, &problem));
     if (ok) {
@@ -152,8 +151,9 @@ static const char *choose_folder(const char *folder, const char *out)
     return NULL;
 }
 
-int report_command(const char *folder, const char *out, bool json)
+int report_command(const struct options *options)
 {
+    const char *folder = options->path, *out = options->out;
     struct record record;
     struct config config;
     struct problem problem;
@@ -165,7 +165,7 @@ int report_command(const char *folder, const char *out, bool json)
         ok = cli_refuse("%s: no such file; is %s the folder of a run?", path, folder);
     if (ok && restore(path, &record, &config, &problem, &results)) {
         ok = (!out || folder_open(&made, out)) &&
-             outputs_write(&results, choose_folder(folder, out), json);
+             outputs_write(&results, choose_folder(folder, out), options->json);
         folder_close(&made);
         results_free(&results);
         problem_free(&problem);

@@ -117,7 +117,14 @@ static bool freeze(struct problem *problem, const igabem_options *mesh)
         problem->speed[i].froude = config->verify_froude[i];
         ok = igabem_options_freeze(problem->parent.body, &problem->speed[i]) == IGABEM_OK;
     }
-    return ok || core_fail("%s: %s", config->path, igabem_last_error());
+    if (!ok)
+        return core_fail("%s: %s", config->path, igabem_last_error());
+    igabem_hull_info info;
+    igabem_hull_get_info(problem->parent.body, &info);
+    return info.transom != IGABEM_TRANSOM_NONE ||
+           !igabem_formulation_info(problem->solver.formulation)->stern_rows ||
+           core_fail("%s: solver.formulation is %s, but %s has no immersed transom", config->path,
+                     igabem_formulation_name(problem->solver.formulation), config->hull);
 }
 
 bool problem_read(const struct config *config, struct problem *problem)

@@ -1,0 +1,123 @@
+#include "cli.h"
+#include "cli/commands.h"
+#include "core/constraints.h"
+#include "shape_yaml.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What a run would work on. */
+struct plan {
+    struct config config;
+    struct problem problem;
+    galv_shape *shape;
+    struct evaluation parent;
+};
+
+static bool read_plan(const struct options *options, struct plan *p)
+{
+    if (!config_read(options->path, NULL, &p->config))
+        return false;
+    if (!problem_read(&p->config, &p->problem))
+        return cli_refuse("%s", core_sentence());
+    const nurbs_grid *grid = p->problem.grid;
+    p->shape = shape_yaml_read(p->config.shape, nurbs_grid_rows(grid) * nurbs_grid_columns(grid),
+                               nurbs_grid_points(grid));
+    if (!p->shape)
+        return false;
+    evaluation_start(0, "parent", NULL, &p->parent);
+    evaluate_parent(&p->problem, &p->parent, NULL, NULL);
+    return !p->parent.failed || cli_refuse("%s: the original cannot be evaluated (%s)",
+                                           p->config.hull, p->parent.reason);
+}
+
+static size_t evaluations(const struct plan *p)
+{
+    return 1 + p->config.initial + p->config.iterations;
+}
+
+static double seconds(const struct plan *p)
+{
+    return (p->parent.geometry_seconds + p->parent.solve_seconds) * (double)evaluations(p);
+}
+
+static bool print_json(const struct plan *p)
+{
+    const nurbs_hydrostatics *h = nurbs_hull_hydrostatics(p->problem.parent.hull);
+    json_t *o = json_pack(
+        "{s:f, s:f, s:f, s:f, s:f, s:f, s:i, s:i, s:i, s:s, s:f, s:i, s:f, s:i, s:f, s:[]}",
+        "length", problem_length(&p->problem), "beam", h->beam, "draft", h->draft, "volume",
+        h->volume, "wetted_area", h->wetted_area, "transom_area", h->transom_area, "sections",
+        (int)nurbs_grid_rows(p->problem.grid), "girth", (int)nurbs_grid_columns(p->problem.grid),
+        "parameters", (int)galv_shape_parameters(p->shape), "formulation",
+        igabem_formulation_name(p->problem.solver.formulation), "fr", p->problem.solver.froude,
+        "dofs", (int)p->parent.dofs, "cw", p->parent.cw, "evaluations", (int)evaluations(p),
+        "seconds", seconds(p), "warnings");
+    bool ok = o && json_dumpf(o, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(15)) == 0 &&
+              putchar('\n') != EOF && fflush(stdout) != EOF;
+    json_decref(o);
+    return ok || cli_refuse("standard output cannot be written");
+}
+
+static void print_hull(const struct plan *p)
+{
+    const struct problem *problem = &p->problem;
+    const nurbs_hydrostatics *h = nurbs_hull_hydrostatics(problem->parent.hull);
+    const nurbs_surface *patch = nurbs_patches_get(nurbs_hull_light(problem->parent.hull), 0);
+    printf("%-16s%s\n%-16slength %.5g m, beam %.4g, draft %.4g, volume %.5g m³, wetted area "
+           "%.5g m², %s\n",
+           "hull", p->config.hull, "", problem_length(problem), h->beam, h->draft, h->volume,
+           h->wetted_area, h->transom_area > 0 ? "immersed transom" : "no transom");
+    printf("%-16s%zu sections of %zu points\n", "design grid", nurbs_grid_rows(problem->grid),
+           nurbs_grid_columns(problem->grid));
+    printf("%-16s%zu x %zu control points, within %.2g m of the hull\n", "patch",
+           nurbs_surface_size(patch, 0), nurbs_surface_size(patch, 1),
+           nurbs_hull_bound(problem->parent.hull));
+    printf("%-16s%s: %zu parameters\n%-16s%zu samples, %.4g %% of the variance\n", "shape",
+           p->config.shape, galv_shape_parameters(p->shape), "latent space", p->config.samples,
+           100 * p->config.variance);
+}
+
+static void print_solver(const struct plan *p)
+{
+    const igabem_options *o = &p->problem.solver;
+    printf("%-16sFr %g, U %.4g m/s\n%-16s%s, filter at tan %.4g, stem limit %.4g\n", "speed",
+           o->froude, o->froude * sqrt(o->gravity * problem_length(&p->problem)), "formulation",
+           igabem_formulation_name(o->formulation), o->cutoff_angle, o->stem_limit);
+    printf("%-16s%zu unknowns\n%-16sC_w %.4e, %.2f s\n", "mesh", p->parent.dofs, "original",
+           p->parent.cw, p->parent.geometry_seconds + p->parent.solve_seconds);
+    for (size_t k = 0; k < constraints_count(); k++) {
+        struct constraint_figures f;
+        constraints_figures(&p->config, k, &p->parent, &p->parent, &f);
+        printf("%-16s%s: %s\n", k ? "" : "limits", f.name, f.limit);
+    }
+}
+
+static void print_search(const struct plan *p)
+{
+    const struct config *c = &p->config;
+    printf("%-16s%zu designs, then %zu proposals: about %.0f min on %d threads\n", "search",
+           c->initial, c->iterations, ceil(seconds(p) / 60), cli_threads());
+    printf("%-16sresolution x %d, %zu other speeds\n", "verification", c->verify_refine,
+           c->verify_froudes);
+}
+
+int check_command(const struct options *options)
+{
+    struct plan plan = {.shape = NULL};
+    bool ok = read_plan(options, &plan);
+    if (ok && options->json) {
+        ok = print_json(&plan);
+    } else if (ok) {
+        print_hull(&plan);
+        print_solver(&plan);
+        print_search(&plan);
+        ok = fflush(stdout) != EOF || cli_refuse("standard output cannot be written");
+    }
+    galv_shape_free(plan.shape);
+    problem_free(&plan.problem);
+    config_free(&plan.config);
+    return ok ? CLI_OK : CLI_FAILED;
+}

@@ -1,0 +1,26 @@
+/* The commands of hullopt; each returns an exit code. */
+#ifndef HULLOPT_COMMANDS_H
+#define HULLOPT_COMMANDS_H
+
+#include "config.h"
+
+struct options {
+    char *path, *shape, *out; /* configuration, hull or folder of a run; shape file */
+    double froude;            /* NAN: not given */
+    struct config_overrides overrides;
+    bool resume;
+    bool json;    /* the result on standard output instead of the figures */
+    double start; /* of the command, cli_seconds() */
+};
+
+/* All stages of an optimisation, from the configuration to the report. */
+int run_command(const struct options *options);
+/* Writes summary, hulls and report of a run folder again, into the folder `out` or, when that is
+ * NULL, the run's own. Of a folder that may not be written the figures are printed. */
+int report_command(const struct options *options);
+/* A configuration with every key, its meaning and its default. */
+int init_command(const struct options *options);
+/* Reads all that a run reads, evaluates the parent, tells what would be done. */
+int check_command(const struct options *options);
+
+#endif
