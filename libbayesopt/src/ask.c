@@ -149,6 +149,28 @@ static bayesopt_status new_point(struct bayesopt *bo, struct point **out)
     return status;
 }
 
+bool ask_is_cancelled(struct bayesopt *bo)
+{
+    struct progress *p = &bo->progress;
+    if (p->callback && p->wanted && !p->cancelled)
+        p->cancelled = p->callback(p->user_data, p->found, p->wanted) != 0;
+    return p->cancelled;
+}
+
+bayesopt_status ask_cancelled(const struct bayesopt *bo)
+{
+    return bayesopt_fail(BAYESOPT_ERROR_CANCELLED, "cancelled after %zu of %zu points",
+                         bo->progress.found, bo->progress.wanted);
+}
+
+bayesopt_status bayesopt_set_ask_progress(bayesopt *bo, bayesopt_ask_progress progress,
+                                          void *user_data)
+{
+    NEED(bo);
+    bo->progress = (struct progress){.callback = progress, .user_data = user_data};
+    return BAYESOPT_OK;
+}
+
 /* The first pending point that no living session answers for. */
 static struct point *left_over(struct bayesopt *bo)
 {
@@ -186,6 +208,16 @@ static bayesopt_status give(struct bayesopt *bo, size_t i, size_t n, double *x, 
     return BAYESOPT_OK;
 }
 
+/* Left-over points given by an ask that then failed are left over again. */
+static void give_back(struct bayesopt *bo, size_t n, const uint64_t *ids)
+{
+    for (size_t i = 0; i < n; i++) {
+        struct point *p = history_find(bo, ids[i]);
+        if (p)
+            p->session = 0;
+    }
+}
+
 bayesopt_status bayesopt_ask_levels(bayesopt *bo, size_t n, double *x, uint64_t *ids, int *levels)
 {
     NEED(bo);
@@ -204,10 +236,15 @@ bayesopt_status bayesopt_ask_levels(bayesopt *bo, size_t n, double *x, uint64_t 
         status = bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
     if (kept)
         surrogates_save(&bo->surrogates, bo->d, kept);
+    bo->progress.wanted = n;
+    bo->progress.cancelled = false;
     while (!status && given < n) {
-        status = give(bo, given, n, x, ids, levels);
+        bo->progress.found = given;
+        status =
+            ask_is_cancelled(bo) ? ask_cancelled(bo) : give(bo, given, n, x, ids, levels);
         given += !status;
     }
+    bo->progress.wanted = 0;
     bayesopt_status stop = status > 0 ? status : BAYESOPT_OK;
     if (status > 0)
         status = BAYESOPT_OK;
@@ -218,6 +255,7 @@ bayesopt_status bayesopt_ask_levels(bayesopt *bo, size_t n, double *x, uint64_t 
     if (status) {
         store_rollback(bo);
         history_truncate(bo, before);
+        give_back(bo, given, ids);
     }
     /* Fits that led to no point leave no trace. */
     if ((status || !given) && kept)

@@ -59,6 +59,7 @@ struct fit {
     double *lengthscale, *gradient; /* [d], [d + 2] */
     double *best;                   /* [parameters] */
     double best_value;
+    bool cancelled;
     size_t evaluations, flat; /* flat: at the best value but for rounding */
     nlopt_opt search;
 };
@@ -127,6 +128,14 @@ static double objective(unsigned k, const double *theta, double *gradient, void 
 {
     struct fit *fit = data;
     double value;
+    fit->cancelled = fit->cancelled || (fit->gp->is_cancelled &&
+                                        fit->gp->is_cancelled(fit->gp->cancel_data));
+    if (fit->cancelled) {
+        nlopt_force_stop(fit->search);
+        if (gradient)
+            memset(gradient, 0, k * sizeof *gradient);
+        return 1e30;
+    }
     if (!log_posterior(fit, theta, &value, gradient)) {
         if (gradient)
             memset(gradient, 0, k * sizeof *gradient);
@@ -177,7 +186,8 @@ static bayesopt_status climb(struct fit *fit, const double *start, size_t evalua
     /* A failed line search still leaves the best point seen in fit->best. */
     nlopt_optimize(search, theta, &value);
     nlopt_destroy(search);
-    return BAYESOPT_OK;
+    return fit->cancelled ? bayesopt_fail(BAYESOPT_ERROR_CANCELLED, "gp: the fit was cancelled")
+                          : BAYESOPT_OK;
 }
 
 static bayesopt_status fit_create(struct fit *fit, bayesopt_gp *gp, struct model model,
@@ -576,6 +586,10 @@ static bayesopt_status fit_cold(bayesopt_gp *gp, const size_t *isotropic_groups)
     }
     options.group = gp->group;
     bayesopt_status status = bayesopt_gp_create(d, &options, &part);
+    if (!status) {
+        part->is_cancelled = gp->is_cancelled;
+        part->cancel_data = gp->cancel_data;
+    }
     if (!status)
         status = bayesopt_gp_set_data(part, MOST_COLD, x, y, variance);
     if (!status)

@@ -36,6 +36,10 @@ struct bayesopt_gp {
     double jitter;  /* absolute */
     double log_likelihood, log_posterior;
     size_t evaluations;
+
+    /* Asked at every likelihood evaluation of a fit; true ends it as cancelled. NULL: never. */
+    bool (*is_cancelled)(void *user_data);
+    void *cancel_data;
 };
 
 /* Hyper-parameters of one likelihood evaluation. */

@@ -34,6 +34,14 @@ struct point {
     bool detached;   /* pending, to be told by another session */
 };
 
+/* An ask under way; wanted is 0 between asks. */
+struct progress {
+    bayesopt_ask_progress callback;
+    void *user_data;
+    size_t found, wanted;
+    bool cancelled;
+};
+
 struct bayesopt {
     size_t d;
     double *lower, *upper;
@@ -50,6 +58,7 @@ struct bayesopt {
     size_t n_points, room;
 
     struct surrogates surrogates;
+    struct progress progress;
     struct store *store;
     int64_t session;
 };
@@ -99,6 +108,10 @@ bool attributes_append(struct attributes *list, const bayesopt_attribute *attrib
 bool attributes_copy(struct attributes *list, size_t n, const bayesopt_attribute *from);
 void attributes_free(struct attributes *list);
 bayesopt_status attributes_check(size_t n, const bayesopt_attribute *attributes);
+
+/* ask.c: whether the caller wants no more of the ask under way, and the failure that says so. */
+bool ask_is_cancelled(struct bayesopt *bo);
+bayesopt_status ask_cancelled(const struct bayesopt *bo);
 
 /* strategy.c: the next point in [0,1]^d, as proposal number id. */
 bayesopt_status strategy_propose(struct bayesopt *bo, uint64_t id, double *u, bayesopt_phase *phase,

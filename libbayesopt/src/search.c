@@ -323,6 +323,8 @@ static bayesopt_status ascend(struct climber *c, const double *u)
     double at[BAYESOPT_MOST_VARIABLES], value;
     struct broyden broyden = {.bo = bo};
     double *tolerances = NULL;
+    if (ask_is_cancelled(bo))
+        return ask_cancelled(bo);
     nlopt_opt opt = nlopt_create(m ? NLOPT_LD_SLSQP : NLOPT_LD_LBFGS, (unsigned)d);
     if (!opt)
         return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");

@@ -210,6 +210,11 @@ static bayesopt_status fit_labels(struct bayesopt *bo, size_t which, const struc
     return status;
 }
 
+static bool is_cancelled(void *user_data)
+{
+    return ask_is_cancelled(user_data);
+}
+
 /* A cold fit whenever the data have grown by a fifth; in between the last one is refined. */
 static bayesopt_status fit_one(struct bayesopt *bo, size_t which, const struct sample *sample,
                                bool keep)
@@ -225,6 +230,8 @@ static bayesopt_status fit_one(struct bayesopt *bo, size_t which, const struct s
         if (status)
             return status;
     }
+    (*gp)->is_cancelled = is_cancelled;
+    (*gp)->cancel_data = bo;
     bayesopt_gp_forget(*gp);
     bool cold = is_cold(state, sample->n);
     if (!cold) {

@@ -108,10 +108,61 @@ static void other_sessions_see_it(void)
     remove(path);
 }
 
+/* Cancels after a number of calls; tells of progress that goes backwards. */
+struct patience {
+    size_t calls, most, found;
+};
+
+static int lose_patience(void *user_data, size_t found, size_t wanted)
+{
+    struct patience *p = user_data;
+    CU_ASSERT(wanted == 3 && found < wanted && found >= p->found);
+    p->found = found;
+    return ++p->calls > p->most;
+}
+
+/* Wherever an ask is cancelled, it leaves nothing behind, and the next one gives what an
+ * undisturbed one gives. */
+static void asks_can_be_cancelled(void)
+{
+    double x[3], y[3];
+    uint64_t ids[3], others[3];
+    bayesopt *bo = make(6, 20), *calm = make(6, 20);
+    for (int i = 0; i < 6; i++) {
+        bayesopt_ask(bo, 1, x, ids);
+        bayesopt_tell(bo, ids[0], sin(9 * x[0]), NULL);
+        bayesopt_ask(calm, 1, x, ids);
+        bayesopt_tell(calm, ids[0], sin(9 * x[0]), NULL);
+    }
+    /* Two points that are left over, of which the first ask would give out both. */
+    CU_ASSERT(bayesopt_ask(bo, 2, x, ids) == BAYESOPT_OK);
+    CU_ASSERT(bayesopt_release(bo, 7) == BAYESOPT_OK && bayesopt_release(bo, 8) == BAYESOPT_OK);
+    CU_ASSERT(bayesopt_ask(calm, 2, x, ids) == BAYESOPT_OK);
+    CU_ASSERT(bayesopt_release(calm, 7) == BAYESOPT_OK && bayesopt_release(calm, 8) == BAYESOPT_OK);
+    struct patience p = {.most = 1000000};
+    bayesopt_set_ask_progress(calm, lose_patience, &p);
+    CU_ASSERT(bayesopt_ask(calm, 3, y, others) == BAYESOPT_OK);
+    CU_ASSERT(p.calls > 10);
+    const size_t all = p.calls;
+    for (size_t most = 0; most < all; most += 1 + all / 7) {
+        p = (struct patience){.most = most};
+        bayesopt_set_ask_progress(bo, lose_patience, &p);
+        CU_ASSERT(bayesopt_ask(bo, 3, x, ids) == BAYESOPT_ERROR_CANCELLED);
+        CU_ASSERT(bayesopt_count(bo) == 8);
+    }
+    bayesopt_set_ask_progress(bo, NULL, NULL);
+    CU_ASSERT(bayesopt_ask(bo, 3, x, ids) == BAYESOPT_OK);
+    for (int i = 0; i < 3; i++)
+        CU_ASSERT(ids[i] == others[i] && x[i] == y[i]);
+    bayesopt_free(bo);
+    bayesopt_free(calm);
+}
+
 static const struct check_case cases[] = {
     {"nothing is learnt from lost points", nothing_is_learnt_from_lost_points},
     {"failed points are asked again", failed_points_are_asked_again},
     {"other sessions see it", other_sessions_see_it},
+    {"asks can be cancelled", asks_can_be_cancelled},
 };
 
 CHECK_MAIN("bayesopt failures", cases)

@@ -84,6 +84,7 @@ static void asking_and_telling(void)
     REFUSED(bayesopt_ask(bo, HUGE_COUNT, x, &id));
     REFUSED(bayesopt_ask_levels(NULL, 1, x, &id, &level));
     REFUSED(bayesopt_ask_levels(bo, SIZE_MAX, x, &id, &level));
+    REFUSED(bayesopt_set_ask_progress(NULL, NULL, NULL));
     REFUSED(bayesopt_tell(NULL, 1, 0, NULL));
     REFUSED(bayesopt_tell_result(NULL, 1, &result));
     REFUSED(bayesopt_tell_result(bo, 1, NULL));

@@ -201,6 +201,17 @@ BAYESOPT_API bayesopt_status bayesopt_ask(bayesopt *bo, size_t n, double *x, uin
 BAYESOPT_API bayesopt_status bayesopt_ask_levels(bayesopt *bo, size_t n, double *x, uint64_t *ids,
                                                  int *levels);
 
+/**
+ * Called by bayesopt_ask() many times per proposal, with the number of points found so far
+ * of those wanted. A non-zero return cancels: nothing is asked, and the call returns
+ * BAYESOPT_ERROR_CANCELLED.
+ */
+typedef int (*bayesopt_ask_progress)(void *user_data, size_t found, size_t wanted);
+
+/** Sets the callback of bayesopt_ask(); NULL: none, which is the default. */
+BAYESOPT_API bayesopt_status bayesopt_set_ask_progress(bayesopt *bo, bayesopt_ask_progress progress,
+                                                       void *user_data);
+
 /** All that may be known about one evaluation. */
 typedef struct bayesopt_result {
     double f;                  /**< the objective; not finite = failed */
