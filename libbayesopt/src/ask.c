@@ -240,8 +240,7 @@ bayesopt_status bayesopt_ask_levels(bayesopt *bo, size_t n, double *x, uint64_t 
     bo->progress.cancelled = false;
     while (!status && given < n) {
         bo->progress.found = given;
-        status =
-            ask_is_cancelled(bo) ? ask_cancelled(bo) : give(bo, given, n, x, ids, levels);
+        status = ask_is_cancelled(bo) ? ask_cancelled(bo) : give(bo, given, n, x, ids, levels);
         given += !status;
     }
     bo->progress.wanted = 0;

@@ -128,8 +128,8 @@ static double objective(unsigned k, const double *theta, double *gradient, void 
 {
     struct fit *fit = data;
     double value;
-    fit->cancelled = fit->cancelled || (fit->gp->is_cancelled &&
-                                        fit->gp->is_cancelled(fit->gp->cancel_data));
+    fit->cancelled =
+        fit->cancelled || (fit->gp->is_cancelled && fit->gp->is_cancelled(fit->gp->cancel_data));
     if (fit->cancelled) {
         nlopt_force_stop(fit->search);
         if (gradient)

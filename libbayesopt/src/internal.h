@@ -72,6 +72,8 @@ size_t problem_budget(const struct bayesopt *bo);
 /* Points of the initial phase. With two levels the design is evaluated at the cheap one, and the
  * first quarter of it at the dear one too. */
 size_t problem_initial(const struct bayesopt *bo);
+/* Refuses points outside of the bounds. */
+bayesopt_status problem_check_points(const struct bayesopt *bo, size_t n, const double *x);
 void problem_to_unit(const struct bayesopt *bo, const double *x, double *u);
 void problem_from_unit(const struct bayesopt *bo, const double *u, double *x);
 

@@ -89,7 +89,9 @@ bayesopt_status bayesopt_predict(bayesopt *bo, size_t n, const double *x, double
     NEED(x);
     NEED(mean);
     NEED_MOST(n, BAYESOPT_MOST_POINTS);
-    bayesopt_status status = ensure_model(bo);
+    bayesopt_status status = problem_check_points(bo, n, x);
+    if (!status)
+        status = ensure_model(bo);
     double *u = malloc((n ? n : 1) * (bo->d + 1) * sizeof *u);
     if (!status && !u)
         status = bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");

@@ -1,8 +1,20 @@
 /* What is known before the first evaluation: box, constraints, counts, budget. */
+#include "error.h"
 #include "internal.h"
 
 #include <math.h>
 #include <string.h>
+
+bayesopt_status problem_check_points(const struct bayesopt *bo, size_t n, const double *x)
+{
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < bo->d; j++)
+            if (!(x[i * bo->d + j] >= bo->lower[j] && x[i * bo->d + j] <= bo->upper[j]))
+                return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
+                                     "variable %zu of point %zu is %g, expected %g to %g", j, i,
+                                     x[i * bo->d + j], bo->lower[j], bo->upper[j]);
+    return BAYESOPT_OK;
+}
 
 void problem_to_unit(const struct bayesopt *bo, const double *x, double *u)
 {

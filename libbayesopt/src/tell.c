@@ -175,12 +175,9 @@ bayesopt_status bayesopt_tell_point_result(bayesopt *bo, const double *x,
     NEED(bo);
     NEED(x);
     NEED(result);
-    for (size_t j = 0; j < bo->d; j++)
-        if (!(x[j] >= bo->lower[j] && x[j] <= bo->upper[j]))
-            return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
-                                 "variable %zu of the told point is %g, expected %g to %g", j, x[j],
-                                 bo->lower[j], bo->upper[j]);
-    bayesopt_status status = check_result(bo, result);
+    bayesopt_status status = problem_check_points(bo, 1, x);
+    if (!status)
+        status = check_result(bo, result);
     if (!status)
         status = store_begin(bo);
     if (status)

@@ -7,7 +7,7 @@ expect 0 "$tool" --help
 expect 0 "$tool" --version
 expect 2 "$tool"
 expect 2 "$tool" nonsense
-for command in run ask tell best status plot design export; do
+for command in run ask tell release best status plot design export predict; do
     expect 0 "$tool" $command --help
     expect 2 "$tool" $command --nonsense
 done
@@ -217,6 +217,41 @@ expect 0 "$tool" tell hand.db --table table.csv --json
 expect 0 "$tool" ask hand.db --json
 expect 0 "$tool" ask hand.db --reissue
 grep -q '^5,' out || fail "reissue: $(cat out)"
+printf '# evaluated elsewhere\nx2, f ,x1\n0.5,2,-0.25\n1,"3",0.125\n' >foreign.csv
+cp hand.db other.db
+expect 0 "$tool" tell other.db --table foreign.csv
+expect 0 "$tool" export other.db -o before.csv
+grep -q '^6,external,done,0,-0.25,0.5,2,' before.csv || fail "a table without ids: $(cat before.csv)"
+expect 0 "$tool" ask copy.db --lower -1,0 --upper 1,2 --initial 4 --budget 20 --seed 9
+expect 0 "$tool" tell copy.db --table before.csv
+expect 0 "$tool" export copy.db -o after.csv
+[ "$(grep -c external after.csv)" -eq 6 ] || fail "an export does not read back: $(cat after.csv)"
+for state in done failed; do
+    for file in before after; do
+        awk -F, -v s=$state '$3 == s { print $5, $6, $7, $9 }' $file.csv | sort >$file.$state
+    done
+    cmp -s before.$state after.$state || fail "$state points differ after reading back"
+done
+for bad in 'x1,f\n0,1\n:there is none called' 'id,f\n77,1\n:no pending point has the id 77' \
+    'x1,x2,f\n0,1,3 m\n:bad.csv:2: f is' 'x1,x2,f\n0,9,1\n:x2 is 9, expected 0 to 2' \
+    'x1,x2,f\n0,1\n:2 fields, expected 3' 'x1,x2,f\n0,1,"2\n:a quotation without an end'; do
+    printf "${bad%%:*}" >bad.csv
+    expect 1 "$tool" tell copy.db --table bad.csv
+    says "${bad#*:}"
+done
+expect 0 "$tool" export copy.db -o again.csv
+cmp -s after.csv again.csv || fail "a refused table was told in part"
+
+# What the model says at a point that was told, and elsewhere.
+expect 0 "$tool" predict copy.db --table foreign.csv
+awk -F, 'NR == 1 { exit $0 != "x1,x2,mean,sd" } { d = $3 - (NR == 2 ? 2 : 3); exit !(d * d < 1e-4) }' out ||
+    fail "predicted: $(cat out)"
+expect 0 "$tool" predict copy.db --point 0,1 --json
+holds '"mean": '
+expect 1 "$tool" predict copy.db --point 0,3
+says 'is 3, expected 0 to 2'
+expect 1 "$tool" predict copy.db --point 0
+expect 2 "$tool" predict copy.db
 for option in '--seed 2' '--initial 5' '--lower -1,0 --upper 1,3' '--lower 0 --upper 1'; do
     expect 1 "$tool" ask hand.db $option
 done

@@ -16,6 +16,7 @@ static const char help[] =
     "  release STORE ID  a pending point for somebody else\n"
     "  best STORE        the best point so far\n"
     "  status STORE      how far the run is, and its model\n"
+    "  predict STORE     what the model expects at points\n"
     "  export STORE      the history as CSV or JSON\n"
     "  plot STORE        history and slices of the model as a picture\n"
     "  design KIND N D   a design of experiments\n"
@@ -33,7 +34,7 @@ static const struct {
     {"tell", "bayesopt tell", command_tell},       {"release", "bayesopt release", command_release},
     {"best", "bayesopt best", command_best},       {"status", "bayesopt status", command_status},
     {"plot", "bayesopt plot", command_plot},       {"design", "bayesopt design", command_design},
-    {"export", "bayesopt export", command_export},
+    {"export", "bayesopt export", command_export}, {"predict", "bayesopt predict", command_predict},
 };
 
 int main(int argc, char **argv)

@@ -178,7 +178,7 @@ static void quote(FILE *stream, const char *text)
     for (; *text; text++) {
         if (*text == '"')
             fputc('"', stream);
-        fputc(*text == '\n' ? ' ' : *text, stream);
+        fputc(*text == '\n' || *text == '\r' ? ' ' : *text, stream);
     }
     fputc('"', stream);
 }
@@ -233,10 +233,11 @@ static bool show_history(bayesopt *bo, const struct names *names, const struct a
 
 int command_export(int argc, char **argv)
 {
-    return look(argc, argv,
-                "usage: bayesopt export STORE [OPTION]...\n"
-                "\n"
-                "Writes the history: CSV with one row per point, or a JSON object with the array\n"
-                "'points'.\n\n",
-                true, show_history);
+    return look(
+        argc, argv,
+        "usage: bayesopt export STORE [OPTION]...\n"
+        "\n"
+        "Writes the history: CSV with one row per point, which 'bayesopt tell --table' reads\n"
+        "back, or a JSON object with the array 'points'.\n\n",
+        true, show_history);
 }

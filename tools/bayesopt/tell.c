@@ -1,6 +1,7 @@
 /* tell: results of evaluations, one from the arguments or many from a table. release: points to be
  * asked again. */
 #include "commands.h"
+#include "import.h"
 #include "names.h"
 
 #include <math.h>
@@ -25,9 +26,8 @@ static const struct setting ROWS[] = {
     OPTION("point", NUMBERS, point, .count = offsetof(struct arguments, n_point),
            .sentence = "variables of an evaluation made elsewhere"),
     OPTION("table", TEXT, table,
-           .sentence =
-               "CSV file of results ('-': standard input) with the columns id and f and one "
-               "per constraint"),
+           .sentence = "CSV file of results ('-': standard input) with the columns f, one per "
+                       "constraint, and id or one per variable or both; also one of 'export'"),
     OPTION("json", SWITCH, json, .sentence = "one JSON object"),
 };
 static const struct settings TABLE = {
@@ -82,40 +82,6 @@ static bool tell_one(bayesopt *bo, const struct names *names, const struct argum
     return !status || cli_refuse("%s", bayesopt_last_error());
 }
 
-/* Column of a name; prints the sentence if there is none. */
-static bool find_column(const struct cli_table *table, const char *path, const char *name,
-                        size_t *column)
-{
-    int found = cli_table_column(table, name);
-    *column = (size_t)found;
-    return found >= 0 || cli_refuse("%s: expected a column '%s'", path, name);
-}
-
-static bool tell_table(bayesopt *bo, const struct names *names, const char *path)
-{
-    struct cli_table table;
-    size_t id, f;
-    if (!cli_table_read(path, &table))
-        return false;
-    double *constraints = malloc((names->m + 1) * sizeof *constraints);
-    size_t *columns = malloc((names->m + 1) * sizeof *columns);
-    bool ok = (constraints && columns) || cli_refuse("out of memory");
-    ok = ok && find_column(&table, path, "id", &id) && find_column(&table, path, "f", &f);
-    for (size_t k = 0; k < names->m && ok; k++)
-        ok = find_column(&table, path, names->constraints[k], &columns[k]);
-    for (size_t i = 0; i < table.rows && ok; i++) {
-        const double *row = table.values + i * table.columns;
-        for (size_t k = 0; k < names->m; k++)
-            constraints[k] = row[columns[k]];
-        if (bayesopt_tell(bo, (uint64_t)row[id], row[f], names->m ? constraints : NULL))
-            ok = cli_refuse("%s: row %zu: %s", path, i + 1, bayesopt_last_error());
-    }
-    free(columns);
-    free(constraints);
-    cli_table_free(&table);
-    return ok;
-}
-
 static bool release(bayesopt *bo, const char *word)
 {
     size_t id;
@@ -130,7 +96,7 @@ static bool tell(const struct arguments *a)
     if (!store_open_to_write(a->store, &bo, &names))
         return false;
     bool ok = a->retry   ? release(bo, a->retry)
-              : a->table ? tell_table(bo, &names, a->table)
+              : a->table ? import_table(bo, &names, a->table)
                          : tell_one(bo, &names, a);
     if (ok && a->json)
         print_json(stdout, json_pack("{s:I}", "evaluations", (json_int_t)bayesopt_count(bo)));

@@ -330,7 +330,7 @@ BAYESOPT_API bayesopt_status bayesopt_set_budget(bayesopt *bo, size_t max_evalua
 
 /**
  * The model's opinion of the objective, fitted to the present history.
- * @param x     [n x d]
+ * @param x     [n x d] within the bounds
  * @param mean  [n] filled: posterior median in units of f
  * @param sd    [n] filled: half the central 68 % interval in units of f; NULL allowed
  * @return BAYESOPT_ERROR_ARGUMENT with fewer than two successful evaluations
