@@ -224,8 +224,7 @@ static void test_all_at_once(void)
     capture_end(&capture, sentences, sizeof sentences);
     CU_ASSERT_FALSE(ok);
     static const char *const parts[] = {"flow.froude is missing", ":1: hull", ":3: latent.samples",
-                                        ":5: search.intial is no setting",
-                                        ":6: search.design"};
+                                        ":5: search.intial is no setting", ":6: search.design"};
     for (size_t i = 0; i < sizeof parts / sizeof *parts && at; i++)
         at = strstr(at, parts[i]);
     CU_ASSERT_PTR_NOT_NULL(at);

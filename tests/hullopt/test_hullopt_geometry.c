@@ -180,6 +180,30 @@ static void test_allowed_designs(void)
     CU_ASSERT_EQUAL(ratio[2], 0.99);
 }
 
+/* The objective is the worst ratio of all models, and each of them is bounded at other speeds. */
+static void test_worst_of_models(void)
+{
+    const struct config several = {.pressure = NAN, .speeds = 1, .verify_froudes = 1, .models = 2};
+    struct evaluation e[3] = {{.cw = 2}, {.id = 1, .cw = 1}, {.id = 2, .cw = 1.2}};
+    double lower[OUTCOME_MOST], upper[OUTCOME_MOST];
+    for (int i = 0; i < 3; i++) {
+        e[i].models = 2;
+        e[i].speeds = 3;
+        e[i].cw_model[0] = e[i].cw_model[1] = i ? 2 : 4;
+        e[i].cw_speed[0] = e[i].cw_speed[1] = e[i].cw_speed[2] = 1;
+    }
+    e[1].cw_model[1] = 3.6;
+    CU_ASSERT_EQUAL(outcome_bounds(&several, lower, upper), 3);
+    for (int i = 0; i < 3; i++)
+        e[i].objective = outcome_objective(&e[i], &e[0]);
+    CU_ASSERT_EQUAL(e[0].objective, 2);
+    CHECK_CLOSE(e[1].objective, 1.8, 1e-15);
+    CHECK_CLOSE(e[2].objective, 1.2, 1e-15);
+    CU_ASSERT_PTR_EQUAL(outcome_best(&several, 3, e), &e[2]);
+    e[2].cw_speed[2] = 1.01;
+    CU_ASSERT_PTR_EQUAL(outcome_best(&several, 3, e), &e[1]);
+}
+
 static const struct check_case cases[] = {
     {"the parent", test_parent},
     {"the latent space", test_latent_space},
@@ -187,6 +211,7 @@ static const struct check_case cases[] = {
     {"limits known before a hull is built", test_limits},
     {"hulls without their files", test_restored},
     {"designs that can be the best", test_allowed_designs},
+    {"the worst of several models", test_worst_of_models},
 };
 
 int main(void)

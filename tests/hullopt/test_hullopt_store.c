@@ -131,7 +131,9 @@ static void test_origin(void)
 static void fill(uint64_t id, const double *u, struct evaluation *e)
 {
     evaluation_start(id, NULL, u, e);
-    e->cw = 1e-3 / (double)(id + 1);
+    e->cw = e->objective = 1e-3 / (double)(id + 1);
+    e->models = 1;
+    e->cw_model[0] = 0.25;
     e->dofs = 468;
     e->solve_seconds = 1.5;
     e->speeds = 2;
@@ -179,6 +181,8 @@ static void test_evaluations(void)
     CU_ASSERT_EQUAL(memcmp(list[1].u, u, MODES * sizeof *u), 0);
     CU_ASSERT_EQUAL(list[1].dofs, 468);
     CU_ASSERT_EQUAL(list[1].solve_seconds, 1.5);
+    CU_ASSERT_EQUAL_FATAL(list[1].models, 1);
+    CU_ASSERT_EQUAL(list[1].cw_model[0], 0.25);
     CU_ASSERT_EQUAL_FATAL(list[1].speeds, 2);
     CU_ASSERT_EQUAL(list[1].cw_speed[0], 1.0 / 3);
     CU_ASSERT_EQUAL(list[1].cw_speed[1], 2.0 / 3);

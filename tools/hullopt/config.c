@@ -99,6 +99,10 @@ static const struct setting ROWS[] = {
     ROW("search.method", CHOICE, method,
         "a Gaussian process, or descent by derivatives of the Kochin function", .choice = method,
         .otherwise = "bayesian"),
+    ROW("search.models", CHOICE, model,
+        "formulations besides solver.formulation: what counts is the worst of them",
+        .choice = formulation, .n_most = CONFIG_MODELS_MOST,
+        .count = offsetof(struct config, models)),
     ROW("search.initial", COUNT, initial, "designs before the first proposal", SETTING_FROM(2, 1e5),
         .otherwise = "200"),
     ROW("search.iterations", COUNT, iterations, "proposals after them", SETTING_FROM(0, 1e5),
@@ -121,6 +125,11 @@ static const struct setting ROWS[] = {
 static void check(struct settings_source *source, void *target)
 {
     const struct config *c = target;
+    for (size_t i = 0; i < c->models; i++)
+        if (c->model[i] == IGABEM_FORMULATION_AUTO || c->model[i] == c->solver.formulation)
+            settings_complain(source, "search.models", "is %s, expected others than %s",
+                              igabem_formulation_name(c->model[i]),
+                              c->model[i] ? "solver.formulation" : "auto");
     if (!isnan(c->speeds) && !c->verify_froudes)
         settings_complain(source, "constraints.speeds",
                           "needs a list of speeds in verification.froude");

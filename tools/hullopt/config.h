@@ -12,7 +12,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { CONFIG_FROUDE_MOST = 8 };
+enum { CONFIG_FROUDE_MOST = 8, CONFIG_MODELS_MOST = 4 };
 
 enum search_method { SEARCH_BAYESIAN, SEARCH_GAUSS_NEWTON };
 
@@ -32,6 +32,8 @@ struct config {
     double speeds;       /* largest C_w at each of verify_froude over the parent's; NAN: any */
     double breadth; /* least share of its half breadth that a wet point keeps; NAN: any from 0 */
     enum search_method method;
+    size_t models; /* formulations besides the solver's: the worst of all is the objective */
+    igabem_formulation model[CONFIG_MODELS_MOST];
     size_t initial, iterations;
     bayesopt_design_kind design;
     bayesopt_strategy strategy;

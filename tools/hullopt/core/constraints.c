@@ -158,6 +158,11 @@ bool limits_kept(const struct config *config, const struct evaluation *e,
     return true;
 }
 
+static size_t count_ratios(const struct constraint *c, const struct config *config)
+{
+    return c->speeds ? config->verify_froudes * (1 + config->models) : 1;
+}
+
 size_t outcome_bounds(const struct config *config, double lower[OUTCOME_MOST],
                       double upper[OUTCOME_MOST])
 {
@@ -165,7 +170,7 @@ size_t outcome_bounds(const struct config *config, double lower[OUTCOME_MOST],
     for (size_t k = 0; k < ROWS; k++) {
         const struct constraint *c = &TABLE[k];
         double limit = limit_of(c, config);
-        size_t count = c->known || isnan(limit) ? 0 : c->speeds ? config->verify_froudes : 1;
+        size_t count = c->known || isnan(limit) ? 0 : count_ratios(c, config);
         for (size_t i = 0; i < count; i++, n++) {
             lower[n] = c->bound == MOST ? -INFINITY : c->bound == LEAST ? limit : 1 - limit;
             upper[n] = c->bound == MOST ? limit : c->bound == LEAST ? INFINITY : 1 + limit;
@@ -179,7 +184,7 @@ void outcome_ratios(const struct config *config, const struct evaluation *e,
 {
     for (size_t k = 0; k < ROWS; k++) {
         const struct constraint *c = &TABLE[k];
-        size_t count = c->speeds ? config->verify_froudes : 1;
+        size_t count = count_ratios(c, config);
         for (size_t i = 0; !c->known && !isnan(limit_of(c, config)) && i < count; i++)
             *ratio++ = c->figure(e, i) / c->figure(parent, i);
     }
@@ -199,12 +204,21 @@ bool outcome_allowed(const struct config *config, const struct evaluation *e,
     return true;
 }
 
+double outcome_objective(const struct evaluation *e, const struct evaluation *parent)
+{
+    double worst = e->cw / parent->cw;
+    for (size_t i = 0; i < e->models; i++)
+        worst = fmax(worst, e->cw_model[i] / parent->cw_model[i]);
+    return worst * parent->cw;
+}
+
 const struct evaluation *outcome_best(const struct config *config, size_t n,
                                       const struct evaluation *list)
 {
     const struct evaluation *best = NULL;
     for (size_t i = 0; i < n; i++)
-        if (outcome_allowed(config, &list[i], list) && (!best || list[i].cw < best->cw))
+        if (outcome_allowed(config, &list[i], list) &&
+            (!best || list[i].objective < best->objective))
             best = &list[i];
     return best;
 }

@@ -5,7 +5,7 @@
 
 #include "core/evaluate.h"
 
-enum { OUTCOME_MOST = 1 + CONFIG_FROUDE_MOST };
+enum { OUTCOME_MOST = 1 + SPEEDS_MOST };
 
 /* Limits known before a design is built: how many, and their values, <= 0 where allowed. The second
  * is a bayesopt_input_constraint with a struct problem for its user_data. */
@@ -26,6 +26,8 @@ void outcome_ratios(const struct config *config, const struct evaluation *e,
 /* Whether a design can be the best: evaluated, and within its bounds. The parent always is. */
 bool outcome_allowed(const struct config *config, const struct evaluation *e,
                      const struct evaluation *parent);
+/* The objective of a design by its figures and those of the parent. */
+double outcome_objective(const struct evaluation *e, const struct evaluation *parent);
 /* The best of a list whose first is the parent; NULL when that failed too. */
 const struct evaluation *outcome_best(const struct config *config, size_t n,
                                       const struct evaluation *list);

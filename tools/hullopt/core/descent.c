@@ -91,7 +91,8 @@ static enum gn_answer fine(void *user_data, const double *u, struct gn_sample *s
     if (e.failed)
         return GN_FAILED;
     sample->value[0] = e.cw;
-    memcpy(sample->value + 1, e.cw_speed, e.speeds * sizeof *e.cw_speed);
+    memcpy(sample->value + 1, e.cw_model, e.models * sizeof *e.cw_model);
+    memcpy(sample->value + 1 + e.models, e.cw_speed, e.speeds * sizeof *e.cw_speed);
     sample->pressure = e.cw_pressure;
     return GN_VALUED;
 }
@@ -157,7 +158,7 @@ bool descent_run(struct search *search, double *u)
 {
     const struct config *config = search->problem->config;
     const galv_model *model = search->problem->model;
-    struct gn_setting setting[SETTINGS_MOST] = {{0, 1}};
+    struct gn_setting setting[SETTINGS_MOST];
     char *stop;
     if (!record_get_text(search->record, "stop", &stop))
         return false;
@@ -180,8 +181,8 @@ bool descent_run(struct search *search, double *u)
                                     .user_data = &d};
     for (size_t m = 0; m < d.problem.settings; m++) {
         coarsen(&d.coarse[m]);
-        if (m > 0)
-            setting[m] = (struct gn_setting){config->speeds, 0};
+        setting[m] = m <= config->models ? (struct gn_setting){0, 1}
+                                         : (struct gn_setting){config->speeds, 0};
     }
     if (!count_points(&d))
         return false;

@@ -11,6 +11,7 @@ void evaluation_start(uint64_t id, const char *phase, const double *u, struct ev
     *e = (struct evaluation){.id = id,
                              .phase = phase,
                              .u = u,
+                             .objective = NAN,
                              .cw = NAN,
                              .cw_pressure = NAN,
                              .rw = NAN,
@@ -22,7 +23,9 @@ void evaluation_start(uint64_t id, const char *phase, const double *u, struct ev
                              .bound = NAN,
                              .breadth = NAN,
                              .nu_s = NAN};
-    for (size_t i = 0; i < CONFIG_FROUDE_MOST; i++)
+    for (size_t i = 0; i < CONFIG_MODELS_MOST; i++)
+        e->cw_model[i] = NAN;
+    for (size_t i = 0; i < SPEEDS_MOST; i++)
         e->cw_speed[i] = NAN;
 }
 
@@ -56,15 +59,23 @@ static bool compute_forces(const igabem_solution *solution, igabem_forces *force
                      igabem_solution_options(solution)->froude);
 }
 
+static bool keep_list(igabem_solution *const *solutions, size_t n, double *cw)
+{
+    igabem_forces forces;
+    for (size_t i = 0; i < n; i++) {
+        if (!compute_forces(solutions[i], &forces))
+            return false;
+        cw[i] = forces.cw;
+    }
+    return true;
+}
+
 static bool keep(igabem_solution *const *solutions, struct evaluation *e)
 {
     igabem_forces forces;
-    for (size_t i = 0; i < e->speeds; i++) {
-        if (!compute_forces(solutions[1 + i], &forces))
-            return false;
-        e->cw_speed[i] = forces.cw;
-    }
-    if (!compute_forces(solutions[0], &forces))
+    if (!keep_list(solutions + 1, e->models, e->cw_model) ||
+        !keep_list(solutions + 1 + e->models, e->speeds, e->cw_speed) ||
+        !compute_forces(solutions[0], &forces))
         return false;
     e->cw = forces.cw;
     e->cw_pressure = forces.cw_pressure;
@@ -75,12 +86,24 @@ static bool keep(igabem_solution *const *solutions, struct evaluation *e)
     return true;
 }
 
+/* The setting by the solver's formulation and by the others. */
+static size_t by_all_models(const struct config *config, const igabem_options *own,
+                            igabem_options *settings)
+{
+    settings[0] = *own;
+    for (size_t i = 0; i < config->models; i++) {
+        settings[1 + i] = *own;
+        settings[1 + i].formulation = config->model[i];
+    }
+    return 1 + config->models;
+}
+
 size_t evaluate_settings(const struct problem *problem, igabem_options settings[SETTINGS_MOST])
 {
-    size_t n = 0;
-    settings[n++] = problem->solver;
-    for (size_t i = 0; i < problem->speeds && !isnan(problem->config->speeds); i++)
-        settings[n++] = problem->speed[i];
+    const struct config *config = problem->config;
+    size_t n = by_all_models(config, &problem->solver, settings);
+    for (size_t i = 0; i < problem->speeds && !isnan(config->speeds); i++)
+        n += by_all_models(config, &problem->speed[i], settings + n);
     return n;
 }
 
@@ -96,7 +119,8 @@ static bool solve(const struct problem *problem, const igabem_hull *body, struct
     igabem_solution *solutions[SETTINGS_MOST];
     igabem_options settings[SETTINGS_MOST];
     size_t n = evaluate_settings(problem, settings);
-    e->speeds = n - 1;
+    e->models = problem->config->models;
+    e->speeds = n - 1 - e->models;
     if (igabem_solve_many(body, n, settings, solutions) != IGABEM_OK)
         return core_fail("solve: %s", igabem_last_error());
     bool ok = keep(solutions, e) && (!viewer.look || viewer.look(viewer.user_data, solutions));

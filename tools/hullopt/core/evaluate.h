@@ -6,7 +6,11 @@
 
 #include <stdint.h>
 
-enum { REASON_SIZE = 256 };
+enum {
+    REASON_SIZE = 256,
+    SPEEDS_MOST = (1 + CONFIG_MODELS_MOST) * CONFIG_FROUDE_MOST,
+    SETTINGS_MOST = 1 + CONFIG_MODELS_MOST + SPEEDS_MOST
+};
 
 /* One evaluated design. Figures are NAN where the design did not get that far. */
 struct evaluation {
@@ -15,9 +19,14 @@ struct evaluation {
     const double *u;   /* latent point, borrowed */
     bool failed;
     char reason[REASON_SIZE]; /* of the failure, "skin: ..."; else "" */
+    double objective; /* what the search lowers, told from the figures by search_step(): cw, or what
+                         it would be if it had the worst of the ratios of all models */
     double cw, cw_pressure, rw, share_beyond_cutoff, condition;
-    size_t speeds; /* of cw_speed; 0: not solved at other speeds */
-    double cw_speed[CONFIG_FROUDE_MOST];
+    size_t models; /* of cw_model: by the other formulations of search.models */
+    double cw_model[CONFIG_MODELS_MOST];
+    size_t speeds; /* of cw_speed: speed by speed the solver's formulation, then the others; 0: not
+                      solved at other speeds */
+    double cw_speed[SPEEDS_MOST];
     double volume, volume_ratio, wetted_area, bound;
     double breadth; /* least share of its half breadth that a wet point keeps */
     double nu_s;    /* of the waterline, as design_nu_s() */
@@ -29,9 +38,8 @@ struct evaluation {
 void evaluation_start(uint64_t id, const char *phase, const double *u,
                       struct evaluation *evaluation);
 
-/* Settings of the solver that a design is valued with: the speed of the search first, and the
- * others when the configuration bounds C_w there. Returns how many. */
-enum { SETTINGS_MOST = 1 + CONFIG_FROUDE_MOST };
+/* Settings of the solver that a design is valued with, in the order of the figures above: cw,
+ * cw_model, and cw_speed when the configuration bounds C_w there. Returns how many. */
 size_t evaluate_settings(const struct problem *problem, igabem_options settings[SETTINGS_MOST]);
 
 /* Looks at the solutions, one for each of these settings, before they are freed; false, with a

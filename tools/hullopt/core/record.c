@@ -77,13 +77,21 @@ struct member {
 enum { MEMBERS_MOST = 16 };
 
 static const struct member EVALUATION[] = {
-    FIGURE(cw_pressure),     FIGURE(rw),
-    FIGURE(condition),       FIGURE(share_beyond_cutoff),
-    FIGURE(volume),          FIGURE(volume_ratio),
-    FIGURE(wetted_area),     FIGURE(bound),
-    FIGURE(breadth),         FIGURE(nu_s),
-    FIGURE(propose_seconds), FIGURE(geometry_seconds),
-    FIGURE(solve_seconds),   MEMBER(evaluation, MEMBER_COUNT, dofs),
+    FIGURE(cw),
+    FIGURE(cw_pressure),
+    FIGURE(rw),
+    FIGURE(condition),
+    FIGURE(share_beyond_cutoff),
+    FIGURE(volume),
+    FIGURE(volume_ratio),
+    FIGURE(wetted_area),
+    FIGURE(bound),
+    FIGURE(breadth),
+    FIGURE(nu_s),
+    FIGURE(propose_seconds),
+    FIGURE(geometry_seconds),
+    FIGURE(solve_seconds),
+    MEMBER(evaluation, MEMBER_COUNT, dofs),
 };
 static const struct member SOLVER_OPTIONS[] = {
     OPTION(froude),         OPTION(gravity),      OPTION(density),     WHOLE(refine),
@@ -350,17 +358,47 @@ bool record_seconds(const struct record *record, size_t *sessions, double *secon
     return true;
 }
 
-static const char *const SPEED[] = {"cw_speed_1", "cw_speed_2", "cw_speed_3", "cw_speed_4",
-                                    "cw_speed_5", "cw_speed_6", "cw_speed_7", "cw_speed_8"};
-_Static_assert(LENGTH(SPEED) == CONFIG_FROUDE_MOST, "a name for every speed");
+/* Names of numbered figures: "cw_speed_1". */
+enum { NAME_SIZE = 32 };
+static void number_name(const char *name, size_t i, char text[NAME_SIZE])
+{
+    snprintf(text, NAME_SIZE, "%s_%zu", name, i + 1);
+}
+
+static size_t pack_list(const char *name, size_t n, const double *values, char (*names)[NAME_SIZE],
+                        bayesopt_attribute *attributes)
+{
+    for (size_t i = 0; i < n; i++) {
+        number_name(name, i, names[i]);
+        attributes[i] = (bayesopt_attribute){.name = names[i], .number = values[i]};
+    }
+    return n;
+}
+
+static size_t unpack_list(const char *name, size_t most, const bayesopt_point *point,
+                          double *values)
+{
+    char text[NAME_SIZE];
+    size_t n = 0;
+    for (; n < most; n++) {
+        number_name(name, n, text);
+        values[n] = bayesopt_attribute_number(point->n_attributes, point->attributes, text);
+        if (isnan(values[n]))
+            break;
+    }
+    return n;
+}
+
+static const char MODEL[] = "cw_model", SPEED[] = "cw_speed";
 
 bool record_tell(struct record *record, const struct evaluation *e, const double *ratio)
 {
-    bayesopt_attribute attributes[MEMBERS_MOST + CONFIG_FROUDE_MOST];
+    bayesopt_attribute attributes[MEMBERS_MOST + CONFIG_MODELS_MOST + SPEEDS_MOST];
+    char names[CONFIG_MODELS_MOST + SPEEDS_MOST][NAME_SIZE];
     size_t n = pack(LENGTH(EVALUATION), EVALUATION, e, attributes);
-    for (size_t i = 0; i < e->speeds; i++)
-        attributes[n++] = (bayesopt_attribute){.name = SPEED[i], .number = e->cw_speed[i]};
-    const bayesopt_result result = {.f = e->failed ? NAN : e->cw,
+    n += pack_list(MODEL, e->models, e->cw_model, names, attributes + n);
+    n += pack_list(SPEED, e->speeds, e->cw_speed, names + e->models, attributes + n);
+    const bayesopt_result result = {.f = e->failed ? NAN : e->objective,
                                     .constraints = ratio,
                                     .note = e->failed ? e->reason : NULL,
                                     .n_attributes = n,
@@ -378,15 +416,12 @@ static void read_evaluation(const bayesopt_point *point, bool first, struct eval
                             : bayesopt_phase_name(point->phase);
     evaluation_start(first ? 0 : point->id, phase, point->x, e);
     e->failed = point->state == BAYESOPT_STATE_FAILED;
-    e->cw = point->f;
+    e->objective = point->f;
     if (e->failed)
         snprintf(e->reason, sizeof e->reason, "%s", point->note);
     unpack(LENGTH(EVALUATION), EVALUATION, point->n_attributes, point->attributes, e);
-    for (size_t i = 0; i < CONFIG_FROUDE_MOST; i++) {
-        double cw = bayesopt_attribute_number(point->n_attributes, point->attributes, SPEED[i]);
-        if (!isnan(cw))
-            e->cw_speed[e->speeds++] = cw;
-    }
+    e->models = unpack_list(MODEL, CONFIG_MODELS_MOST, point, e->cw_model);
+    e->speeds = unpack_list(SPEED, SPEEDS_MOST, point, e->cw_speed);
 }
 
 bool record_evaluations(const struct record *record, struct evaluation **list, size_t *n)

@@ -42,8 +42,9 @@ bool search_open(struct problem *problem, const char *path, struct record *recor
     return false;
 }
 
-static bool tell(struct search *s, const struct evaluation *e)
+static bool tell(struct search *s, struct evaluation *e)
 {
+    e->objective = outcome_objective(e, &s->parent);
     double ratio[OUTCOME_MOST];
     outcome_ratios(s->problem->config, e, &s->parent, ratio);
     return record_tell(s->record, e, ratio);
@@ -61,10 +62,10 @@ static bool begin(struct search *s)
         if (list[i].id == 0) {
             s->parent = list[i];
             s->parent.u = NULL;
-            s->best = list[i].cw;
+            s->best = list[i].objective;
         }
         if (outcome_allowed(config, &list[i], &s->parent))
-            s->best = fmin(s->best, list[i].cw);
+            s->best = fmin(s->best, list[i].objective);
         s->failed += list[i].failed;
     }
     s->done = n;
@@ -105,7 +106,7 @@ bool search_step(struct search *s, struct evaluation *e, evaluate_look look, voi
     s->done++;
     s->failed += e->failed;
     if (outcome_allowed(s->problem->config, e, &s->parent))
-        s->best = fmin(s->best, e->cw);
+        s->best = fmin(s->best, e->objective);
     return true;
 }
 
