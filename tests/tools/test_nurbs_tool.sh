@@ -45,6 +45,7 @@ expect 0 "$nurbs" --help
 grep -q "usage: nurbs make" stdout || fail "--help lacks make"
 expect 0 "$nurbs" --version
 grep -Eq '^nurbs [0-9]+\.[0-9]+\.[0-9]+$' stdout || fail "--version: $(cat stdout)"
+grep -q 'OpenBLAS.*kernels for [A-Za-z]' stdout || fail "--version tells no kernels: $(cat stdout)"
 for command in make info eval skin fit grid simplify wetted hydrostatics moments closest cut edit \
     convert plot; do
     expect 0 "$nurbs" $command --help

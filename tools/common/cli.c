@@ -71,6 +71,7 @@ int cli_version(void)
 {
     size_t length = strcspn(command_name, " ");
     printf("%.*s %s\n", (int)length, command_name, TOOL_VERSION);
+    printf("%s, kernels for %s\n", openblas_get_config(), openblas_get_corename());
     return fflush(stdout) == EOF ? CLI_FAILED : CLI_OK;
 }
 

@@ -28,6 +28,7 @@
 #include <bayesopt/gp.h>
 #include <bayesopt/status.h>
 #include <bayesopt/store.h>
+#include <bayesopt/version.h>
 
 #include <stdbool.h>
 #include <stdint.h>

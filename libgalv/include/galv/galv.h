@@ -21,5 +21,6 @@
 #include <galv/moments.h>
 #include <galv/shape.h>
 #include <galv/status.h>
+#include <galv/version.h>
 
 #endif

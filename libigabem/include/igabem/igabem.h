@@ -14,5 +14,6 @@
 #include <igabem/residual.h>
 #include <igabem/solve.h>
 #include <igabem/status.h>
+#include <igabem/version.h>
 
 #endif

@@ -30,5 +30,6 @@
 #include <nurbs/surface.h>
 #include <nurbs/topology.h>
 #include <nurbs/trim.h>
+#include <nurbs/version.h>
 
 #endif

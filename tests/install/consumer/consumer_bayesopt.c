@@ -2,9 +2,15 @@
 #include <bayesopt/bayesopt.h>
 
 #include <stdio.h>
+#include <string.h>
 
 int main(void)
 {
+    char version[40];
+    snprintf(version, sizeof version, "%d.%d.%d", BAYESOPT_VERSION_MAJOR, BAYESOPT_VERSION_MINOR,
+             BAYESOPT_VERSION_PATCH);
+    if (strcmp(version, bayesopt_version()) != 0)
+        return 1;
     const double lower[2] = {-1, -1}, upper[2] = {1, 1};
     bayesopt_options options;
     bayesopt_options_init(&options);

@@ -4,11 +4,17 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 enum { POINTS = 40 };
 
 int main(void)
 {
+    char version[40];
+    snprintf(version, sizeof version, "%d.%d.%d", GALV_VERSION_MAJOR, GALV_VERSION_MINOR,
+             GALV_VERSION_PATCH);
+    if (strcmp(version, galv_version()) != 0)
+        return 1;
     double xyz[3 * POINTS];
     for (int i = 0; i < POINTS; i++) {
         xyz[3 * i] = (i + 0.5) / POINTS;

@@ -4,9 +4,15 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 int main(void)
 {
+    char version[40];
+    snprintf(version, sizeof version, "%d.%d.%d", IGABEM_VERSION_MAJOR, IGABEM_VERSION_MINOR,
+             IGABEM_VERSION_PATCH);
+    if (strcmp(version, igabem_version()) != 0)
+        return 1;
     const double X = 3000, Y = 4000, Z = -1e-3;
     double n, nx, ny, nz;
     if (igabem_kelvin_local(1, &X, &Y, &Z, &n, &nx, &ny, &nz) != IGABEM_OK) {

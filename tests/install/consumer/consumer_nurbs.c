@@ -3,9 +3,15 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 int main(void)
 {
+    char version[40];
+    snprintf(version, sizeof version, "%d.%d.%d", NURBS_VERSION_MAJOR, NURBS_VERSION_MINOR,
+             NURBS_VERSION_PATCH);
+    if (strcmp(version, nurbs_version()) != 0)
+        return 1;
     nurbs_surface *hull = NULL;
     nurbs_hydrostatics hydrostatics;
     if (nurbs_make_wigley(1, 0.1, 0.0625, &hull) != NURBS_OK ||
