@@ -266,7 +266,7 @@ if [ -c /dev/full ]; then
     expect 0 "$tool" ask full.db --lower 0 --upper 1
     "$tool" tell full.db 1 3
     "$tool" ask full.db -n 2 >/dev/full 2>err && fail "ask >/dev/full succeeded"
-    says 'standard output: '
+    says 'standard output cannot be written: '
     expect 0 "$tool" export full.db
     [ "$(wc -l <out)" -eq 2 ] || fail "points that nobody read: $(cat out)"
     "$tool" ask full.db --json >/dev/full 2>err && fail "ask --json >/dev/full succeeded"

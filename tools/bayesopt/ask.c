@@ -1,8 +1,8 @@
 /* ask: the next points of a store, or the first of a new one. */
 #include "commands.h"
 #include "config.h"
+#include "json_result.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -141,16 +141,15 @@ static void print_points_json(const struct names *names, const struct points *p)
         json_t *point = json_pack("{s:I, s:o}", "id", (json_int_t)p->ids[i], "x",
                                   named_json(names->d, names->variables, p->x + i * names->d));
         if (p->levels)
-            json_object_set_new(point, "level", json_integer(p->levels[i]));
-        json_array_append_new(points, point);
+            json_result_set(point, "level", json_integer(p->levels[i]));
+        json_result_append(points, point);
     }
     print_json(stdout, json_pack("{s:o}", "points", points));
 }
 
 static bool written(void)
 {
-    return (fflush(stdout) == 0 && !ferror(stdout)) ||
-           cli_refuse("standard output: %s", strerror(errno));
+    return cli_printed() == CLI_OK;
 }
 
 /* Prints what was asked. Points that nobody can read are to be asked again. */

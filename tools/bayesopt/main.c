@@ -37,9 +37,8 @@ static const struct {
     {"export", "bayesopt export", command_export}, {"predict", "bayesopt predict", command_predict},
 };
 
-int main(int argc, char **argv)
+static int run_bayesopt(int argc, char **argv)
 {
-    cli_set_name("bayesopt");
     cli_set_threads(1); /* matrices of a few hundred rows gain nothing from more */
     if (argc < 2)
         return cli_usage("a command is missing");
@@ -53,4 +52,9 @@ int main(int argc, char **argv)
             return commands[i].run(argc - 1, argv + 1);
         }
     return cli_usage("unknown command '%s'", argv[1]);
+}
+
+int main(int argc, char **argv)
+{
+    return cli_main("bayesopt", run_bayesopt, argc, argv);
 }

@@ -1,5 +1,7 @@
 #include "names.h"
 
+#include "json_result.h"
+
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -109,23 +111,20 @@ json_t *named_json(size_t n, char *const *names, const double *values)
 {
     json_t *object = json_object();
     for (size_t i = 0; i < n && values; i++)
-        json_object_set_new(object, names[i], number_json(values[i]));
+        json_result_set(object, names[i], number_json(values[i]));
     return object;
 }
 
 bool print_json(FILE *stream, json_t *root)
 {
-    json_dumpf(root, stream, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
-    fputc('\n', stream);
-    json_decref(root);
-    return true;
+    return json_result_write(stream, root, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
 }
 
 bool output_open(struct output *output, const char *path)
 {
     *output = (struct output){stdout, path, {0}};
     if (path && !cli_file_open(&output->file, path))
-        return cli_refuse("%s: %s", path, strerror(errno));
+        return cli_refuse("%s: cannot be written: %s", path, strerror(errno));
     if (path)
         output->stream = output->file.stream;
     return true;
@@ -134,5 +133,5 @@ bool output_open(struct output *output, const char *path)
 bool output_close(struct output *output)
 {
     return !output->path || cli_file_commit(&output->file) ||
-           cli_refuse("%s: %s", output->path, strerror(errno));
+           cli_refuse("%s: cannot be written: %s", output->path, strerror(errno));
 }

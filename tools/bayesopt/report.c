@@ -1,5 +1,6 @@
 /* best, status and export: what a store holds. */
 #include "commands.h"
+#include "json_result.h"
 #include "names.h"
 
 #include <math.h>
@@ -45,8 +46,8 @@ static json_t *point_json(const struct names *names, const bayesopt_point *p)
     json_t *attributes = json_object();
     for (size_t i = 0; i < p->n_attributes; i++) {
         const bayesopt_attribute *a = &p->attributes[i];
-        json_object_set_new(attributes, a->name,
-                            a->text ? json_string(a->text) : number_json(a->number));
+        json_result_set(attributes, a->name,
+                        a->text ? json_string(a->text) : number_json(a->number));
     }
     return json_pack("{s:I, s:s, s:s, s:i, s:o, s:o, s:o, s:b, s:s, s:o}", "id", (json_int_t)p->id,
                      "phase", bayesopt_phase_name(p->phase), "state", bayesopt_state_name(p->state),
@@ -70,9 +71,9 @@ static bool show_best(bayesopt *bo, const struct names *names, const struct argu
     if (a->json) {
         json_t *root = point_json(names, &point);
         if (noisy) {
-            json_object_set_new(root, "f", number_json(f));
-            json_object_set_new(root, "told", number_json(point.f));
-            json_object_set_new(
+            json_result_set(root, "f", number_json(f));
+            json_result_set(root, "told", number_json(point.f));
+            json_result_set(
                 root, "luckiest",
                 json_pack("{s:I, s:o}", "id", (json_int_t)lucky, "f", number_json(least)));
         }
@@ -124,7 +125,7 @@ static json_t *model_json(bayesopt *bo, const struct names *names)
         number_json(info.signal_variance), "noise_variance", number_json(info.noise_variance),
         "loo_rms", number_json(info.loo_rms), "trust_length", number_json(info.trust_length),
         "repeat_sd", number_json(info.repeat_sd));
-    json_object_set_new(model, "lengthscale", named_json(names->d, names->variables, scales));
+    json_result_set(model, "lengthscale", named_json(names->d, names->variables, scales));
     free(scales);
     return model;
 }
@@ -223,7 +224,7 @@ static bool show_history(bayesopt *bo, const struct names *names, const struct a
         return false;
     json_t *points = a->json ? json_array() : NULL;
     for (size_t i = 0; a->json && !bayesopt_get(bo, i, &p); i++)
-        json_array_append_new(points, point_json(names, &p));
+        json_result_append(points, point_json(names, &p));
     if (a->json)
         print_json(output.stream, json_pack("{s:o}", "points", points));
     else

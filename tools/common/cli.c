@@ -2,7 +2,9 @@
 
 #include <cblas.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <math.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -60,11 +62,53 @@ int cli_usage(const char *format, ...)
     return CLI_USAGE;
 }
 
+static void ignore_signal(int number)
+{
+    (void)number;
+}
+
+/* Descriptors 0 to 2 that the caller closed: taken by what cannot be read or written. */
+static bool fill_standard_streams(void)
+{
+    for (int k = STDIN_FILENO; k <= STDERR_FILENO; k++)
+        if (fcntl(k, F_GETFD) < 0 &&
+            open("/dev/null", k == STDIN_FILENO ? O_WRONLY : O_RDONLY) != k)
+            return false;
+    return true;
+}
+
+int cli_main(const char *name, int (*run)(int, char **), int argc, char **argv)
+{
+    cli_set_name(name);
+    if (!fill_standard_streams())
+        return CLI_FAILED;
+    /* A handler, unlike SIG_IGN, is not handed on to the programs that a command starts. */
+    struct sigaction action = {.sa_handler = ignore_signal, .sa_flags = SA_RESTART};
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGPIPE, &action, NULL);
+    int code = run(argc, argv), printed = cli_printed();
+    return code == CLI_OK ? printed : code;
+}
+
+int cli_printed(void)
+{
+    static bool told;
+    bool lost = ferror(stdout), failed = fflush(stdout) == EOF;
+    if (!lost && !failed)
+        return CLI_OK;
+    /* What failed while the buffer was filled has left no reason; one more byte asks for it. */
+    if (!failed && write(STDOUT_FILENO, "\n", 1) == 1)
+        errno = EIO;
+    if (!told)
+        cli_fail("standard output cannot be written: %s", strerror(errno));
+    told = true;
+    return CLI_FAILED;
+}
+
 int cli_print(const char *text)
 {
-    if (fputs(text, stdout) == EOF || fflush(stdout) == EOF)
-        return cli_fail("standard output: %s", strerror(errno));
-    return CLI_OK;
+    fputs(text, stdout);
+    return cli_printed();
 }
 
 int cli_version(void)
@@ -72,7 +116,7 @@ int cli_version(void)
     size_t length = strcspn(command_name, " ");
     printf("%.*s %s\n", (int)length, command_name, TOOL_VERSION);
     printf("%s, kernels for %s\n", openblas_get_config(), openblas_get_corename());
-    return fflush(stdout) == EOF ? CLI_FAILED : CLI_OK;
+    return cli_printed();
 }
 
 void cli_set_threads(int threads)

@@ -9,6 +9,14 @@
 
 enum { CLI_OK = 0, CLI_FAILED = 1, CLI_USAGE = 2 };
 
+/* All of main(): names the command, runs it, and makes of its success a failure when standard
+ * output did not take what it printed. A reader that went away is an error like a full disk, not a
+ * silent death; a standard stream that the caller closed does not become the first file opened. */
+int cli_main(const char *name, int (*run)(int, char **), int argc, char **argv);
+
+/* Flushes standard output: CLI_OK, or CLI_FAILED after the sentence with the reason, said once. */
+int cli_printed(void);
+
 /* Names the command in every message ("nurbs skin"). Borrowed: keep the string. */
 void cli_set_name(const char *name);
 const char *cli_name(void);
@@ -23,8 +31,7 @@ __attribute__((format(printf, 1, 2))) int cli_usage(const char *format, ...);
  */
 __attribute__((format(printf, 1, 2))) bool cli_refuse(const char *format, ...);
 
-/* Prints help or version on stdout and returns CLI_OK, or CLI_FAILED if stdout cannot be written.
- */
+/* Prints help or version on stdout and returns as cli_printed(). */
 int cli_print(const char *text);
 int cli_version(void);
 
@@ -56,8 +63,9 @@ void cli_progress_end(struct cli_progress *progress);
 /* Seconds of a monotonic clock. */
 double cli_seconds(void);
 
-/* A file written beside PATH and renamed onto it once complete and on disk. Writing goes to
- * file.stream. Commit returns false with errno set and removes the temporary file. */
+/* A file written beside PATH, or beside what the link PATH leads to, and renamed onto it once
+ * complete and on disk; a device or FIFO is written as it is. Writing goes to file.stream. Commit
+ * returns false with errno set and removes the temporary file. */
 struct cli_file {
     FILE *stream;
     char *path, *temporary;

@@ -2,77 +2,152 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-bool cli_file_open(struct cli_file *file, const char *path)
+enum { MOST_LINKS = 40 };
+
+/* Devices, FIFOs and whatever stands for an open stream take bytes as they come; a name beside them
+ * would not reach whom they lead to. */
+static bool is_stream(const char *path)
 {
-    size_t length = strlen(path);
-    *file = (struct cli_file){NULL, strdup(path), malloc(length + sizeof ".XXXXXX")};
-    if (!file->path || !file->temporary) {
-        cli_file_abandon(file);
-        errno = ENOMEM;
-        return false;
+    struct stat info;
+    return strncmp(path, "/dev/", 5) == 0 || strncmp(path, "/proc/", 6) == 0 ||
+           (stat(path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode));
+}
+
+/* The stream itself where the path names one of the program's own, so that what comes before and
+ * after in the same file stays; -1: another path. */
+static int own_descriptor(const char *path)
+{
+    size_t number;
+    if (strcmp(path, "/dev/stdout") == 0)
+        return STDOUT_FILENO;
+    if (strcmp(path, "/dev/stderr") == 0)
+        return STDERR_FILENO;
+    bool named = strncmp(path, "/dev/fd/", 8) == 0 && cli_parse_size(path + 8, &number);
+    return named && number <= INT_MAX ? (int)number : -1;
+}
+
+static int open_stream(const char *path)
+{
+    int own = own_descriptor(path);
+    return own >= 0 ? dup(own) : open(path, O_WRONLY | O_APPEND);
+}
+
+/* The name that a chain of symbolic links ends in, also one that does not exist yet. NULL with
+ * errno set; the caller frees. */
+static char *follow_links(const char *path)
+{
+    char link[PATH_MAX], *target = strdup(path);
+    for (int k = 0; target; k++) {
+        ssize_t length = readlink(target, link, sizeof link - 1);
+        if (length < 0)
+            return target; /* no link, or nothing there */
+        if (k == MOST_LINKS) {
+            free(target);
+            errno = ELOOP;
+            return NULL;
+        }
+        link[length] = '\0';
+        const char *slash = link[0] == '/' ? NULL : strrchr(target, '/');
+        size_t folder = slash ? (size_t)(slash - target) + 1 : 0;
+        char *next = malloc(folder + (size_t)length + 1);
+        if (next) {
+            memcpy(next, target, folder);
+            memcpy(next + folder, link, (size_t)length + 1);
+        }
+        free(target);
+        target = next;
     }
-    memcpy(file->temporary, path, length);
-    memcpy(file->temporary + length, ".XXXXXX", sizeof ".XXXXXX");
-    int descriptor = mkstemp(file->temporary);
+    errno = ENOMEM;
+    return NULL;
+}
+
+/* An unnamed successor beside file->path, with the rights of what it replaces. */
+static int open_temporary(struct cli_file *file)
+{
+    struct stat info;
+    bool exists = stat(file->path, &info) == 0;
+    if (exists && S_ISDIR(info.st_mode)) {
+        errno = EISDIR;
+        return -1;
+    }
+    if (exists && access(file->path, W_OK) != 0)
+        return -1;
+    size_t length = strlen(file->path);
+    char *temporary = malloc(length + sizeof ".XXXXXX");
+    if (!temporary) {
+        errno = ENOMEM;
+        return -1;
+    }
+    memcpy(temporary, file->path, length);
+    memcpy(temporary + length, ".XXXXXX", sizeof ".XXXXXX");
+    int descriptor = mkstemp(temporary);
     if (descriptor < 0) {
         int reason = errno;
-        free(file->temporary);
-        file->temporary = NULL;
-        cli_file_abandon(file);
+        free(temporary);
         errno = reason;
-        return false;
+        return -1;
     }
+    file->temporary = temporary;
     mode_t mask = umask(0);
     umask(mask);
-    fchmod(descriptor, 0666 & ~mask);
-    file->stream = fdopen(descriptor, "w");
-    if (!file->stream) {
-        int reason = errno;
+    fchmod(descriptor, exists ? info.st_mode & 07777 : 0666 & ~mask);
+    return descriptor;
+}
+
+bool cli_file_open(struct cli_file *file, const char *path)
+{
+    bool stream = is_stream(path);
+    *file = (struct cli_file){.path = stream ? strdup(path) : follow_links(path)};
+    int descriptor = -1;
+    if (file->path)
+        descriptor = stream ? open_stream(path) : open_temporary(file);
+    if (descriptor >= 0 && (file->stream = fdopen(descriptor, "w")))
+        return true;
+    int reason = errno;
+    if (descriptor >= 0)
         close(descriptor);
-        cli_file_abandon(file);
-        errno = reason;
-        return false;
-    }
-    return true;
+    cli_file_abandon(file);
+    errno = reason;
+    return false;
 }
 
 /* The rename itself must survive a power cut: sync the folder that holds the name. */
-static void sync_folder(const char *path)
+static void sync_folder(char *path)
 {
-    char *copy = strdup(path);
-    if (!copy)
-        return;
-    char *slash = strrchr(copy, '/');
+    char *slash = strrchr(path, '/');
     if (slash)
-        slash[slash == copy] = '\0';
-    int folder = open(slash ? copy : ".", O_RDONLY);
+        slash[slash == path] = '\0';
+    int folder = open(slash ? path : ".", O_RDONLY);
     if (folder >= 0) {
         fsync(folder);
         close(folder);
     }
-    free(copy);
 }
 
 bool cli_file_commit(struct cli_file *file)
 {
-    bool ok =
-        fflush(file->stream) == 0 && !ferror(file->stream) && fsync(fileno(file->stream)) == 0;
-    int reason = errno;
+    bool ok = !ferror(file->stream);
+    int reason = EIO; /* of a failure before, whose errno is lost */
+    if (fflush(file->stream) != 0 || (ok && file->temporary && fsync(fileno(file->stream)) != 0)) {
+        ok = false;
+        reason = errno;
+    }
     if (fclose(file->stream) != 0 && ok) {
         ok = false;
         reason = errno;
     }
     file->stream = NULL;
-    if (ok && rename(file->temporary, file->path) != 0) {
+    if (ok && file->temporary && rename(file->temporary, file->path) != 0) {
         ok = false;
         reason = errno;
     }
-    if (ok) {
+    if (ok && file->temporary) {
         sync_folder(file->path);
         free(file->temporary);
         file->temporary = NULL;

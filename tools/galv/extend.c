@@ -1,6 +1,7 @@
 #include "arguments.h"
 #include "cli.h"
 #include "commands.h"
+#include "json_result.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -76,11 +77,11 @@ static bool extend(const struct arguments *a, galv_sampling sampling, galv_model
 static int print_json(const galv_model *old, const galv_model *new, const struct warnings *warnings)
 {
     json_t *root = json_model(new);
-    json_object_set_new(root, "samples_before", json_whole(galv_model_samples(old)));
-    json_object_set_new(root, "retained_before", json_number(galv_model_retained(old)));
-    json_object_set_new(root, "trace_before", json_number(galv_model_trace(old)));
-    json_object_set_new(root, "eigenvalues_before",
-                        json_numbers(galv_model_spectrum(old), galv_model_eigenvalues(old)));
+    json_result_set(root, "samples_before", json_whole(galv_model_samples(old)));
+    json_result_set(root, "retained_before", json_number(galv_model_retained(old)));
+    json_result_set(root, "trace_before", json_number(galv_model_trace(old)));
+    json_result_set(root, "eigenvalues_before",
+                    json_numbers(galv_model_spectrum(old), galv_model_eigenvalues(old)));
     return json_print(root, warnings);
 }
 

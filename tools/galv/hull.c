@@ -94,10 +94,7 @@ bool hull_write(const char *path, const struct hull *hull, const double *xyz)
 {
     if (strcmp(path, "-") == 0) {
         write_points(stdout, hull, xyz);
-        if (fflush(stdout) == 0 && !ferror(stdout))
-            return true;
-        cli_fail("standard output: %s", strerror(errno));
-        return false;
+        return cli_printed() == CLI_OK;
     }
     struct cli_file file;
     if (cli_file_open(&file, path)) {
@@ -105,6 +102,6 @@ bool hull_write(const char *path, const struct hull *hull, const double *xyz)
         if (cli_file_commit(&file))
             return true;
     }
-    cli_fail("%s: %s", path, strerror(errno));
+    cli_fail("%s: cannot be written: %s", path, strerror(errno));
     return false;
 }

@@ -1,6 +1,7 @@
 #include "arguments.h"
 #include "cli.h"
 #include "commands.h"
+#include "json_result.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -22,12 +23,12 @@ static int print_json(const struct arguments *a)
     if (galv_latent_ellipsoid(file->model, 0.95, &radius))
         return cli_fail("%s", galv_last_error());
     json_t *root = json_model(file->model);
-    json_object_set_new(root, "radius95", json_number(radius));
-    json_object_set_new(root, "seed", file->uniform ? json_whole(file->seed) : json_null());
-    json_object_set_new(root, "sections", json_whole(file->sections));
-    json_object_set_new(root, "hull", json_string(file->hull));
-    json_object_set_new(root, "shape",
-                        json_string(file->shape.kind == SHAPE_SINES ? "sines" : "lattice"));
+    json_result_set(root, "radius95", json_number(radius));
+    json_result_set(root, "seed", file->uniform ? json_whole(file->seed) : json_null());
+    json_result_set(root, "sections", json_whole(file->sections));
+    json_result_set(root, "hull", json_string(file->hull));
+    json_result_set(root, "shape",
+                    json_string(file->shape.kind == SHAPE_SINES ? "sines" : "lattice"));
     return json_print(root, &a->warnings);
 }
 

@@ -37,9 +37,8 @@ static const struct {
     {"animate", "galv animate", command_animate},
 };
 
-int main(int argc, char **argv)
+static int run_galv(int argc, char **argv)
 {
-    cli_set_name("galv");
     if (argc < 2)
         return cli_usage("a command is missing");
     if (strcmp(argv[1], "--help") == 0)
@@ -52,4 +51,9 @@ int main(int argc, char **argv)
             return commands[i].run(argc - 1, argv + 1);
         }
     return cli_usage("unknown command '%s'", argv[1]);
+}
+
+int main(int argc, char **argv)
+{
+    return cli_main("galv", run_galv, argc, argv);
 }

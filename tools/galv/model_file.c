@@ -119,7 +119,7 @@ bool model_file_write(const char *path, const struct model_file *file)
     struct cli_file out;
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     if (!cli_file_open(&out, path)) {
-        cli_fail("%s: %s", path, strerror(errno));
+        cli_fail("%s: cannot be written: %s", path, strerror(errno));
         return false;
     }
     hid_t h5 = H5Fcreate(out.temporary, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
@@ -132,7 +132,7 @@ bool model_file_write(const char *path, const struct model_file *file)
         return false;
     }
     if (!cli_file_commit(&out)) {
-        cli_fail("%s: %s", path, strerror(errno));
+        cli_fail("%s: cannot be written: %s", path, strerror(errno));
         return false;
     }
     return true;

@@ -1,6 +1,7 @@
 #include "output.h"
 
 #include "cli.h"
+#include "json_result.h"
 #include "model_file.h"
 
 #include <math.h>
@@ -42,7 +43,7 @@ json_t *json_numbers(size_t n, const double *values)
 {
     json_t *list = json_array();
     for (size_t i = 0; i < n; i++)
-        json_array_append_new(list, json_number(values[i]));
+        json_result_append(list, json_number(values[i]));
     return list;
 }
 
@@ -77,27 +78,22 @@ json_t *json_model(const galv_model *m)
     };
     json_t *root = json_object();
     for (size_t i = 0; i < sizeof figures / sizeof *figures; i++)
-        json_object_set_new(root, figures[i].name, figures[i].value);
+        json_result_set(root, figures[i].name, figures[i].value);
     return root;
 }
 
 int output_end(void)
 {
-    return fflush(stdout) == EOF || ferror(stdout) ? cli_fail("standard output cannot be written")
-                                                   : CLI_OK;
+    return cli_printed();
 }
 
 int json_print(json_t *root, const struct warnings *warnings)
 {
     json_t *list = json_array();
     for (size_t i = 0; i < warnings->n; i++)
-        json_array_append_new(list, json_string(warnings->text[i]));
-    if (!root || json_object_set_new(root, "warnings", list) != 0)
-        return cli_fail("out of memory");
-    int failed = json_dumpf(root, stdout, JSON_REAL_PRECISION(17) | JSON_INDENT(1));
-    json_decref(root);
-    putchar('\n');
-    return failed ? cli_fail("standard output cannot be written") : output_end();
+        json_result_append(list, json_string(warnings->text[i]));
+    json_result_set(root, "warnings", list);
+    return json_result_print(root, JSON_REAL_PRECISION(17) | JSON_INDENT(1));
 }
 
 static int print_csv(const struct table *t)
@@ -126,11 +122,11 @@ int table_print(const struct table *t, bool json, const struct warnings *warning
         json_t *row = json_object();
         for (size_t k = 0; k < t->width; k++) {
             snprintf(name, sizeof name, "%s%zu", t->prefix, k + 1);
-            json_object_set_new(row, name, json_number(t->values[r * t->width + k]));
+            json_result_set(row, name, json_number(t->values[r * t->width + k]));
         }
         for (size_t k = 0; k < t->extras; k++)
-            json_object_set_new(row, t->names[k], json_number(t->more[r * t->extras + k]));
-        json_array_append_new(list, row);
+            json_result_set(row, t->names[k], json_number(t->more[r * t->extras + k]));
+        json_result_append(list, row);
     }
     return json_print(json_pack("{s:o}", "rows", list), warnings);
 }

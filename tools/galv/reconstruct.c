@@ -2,6 +2,7 @@
 #include "cli.h"
 #include "commands.h"
 #include "hull.h"
+#include "json_result.h"
 
 #include <stdlib.h>
 
@@ -52,17 +53,17 @@ static int print_json(struct arguments *a, const double *u, const struct hull *h
     json_t *root = json_pack("{s:o,s:o,s:o}", "elements", json_whole(hull->npoints), "sections",
                              json_whole(hull->sections), "girth", json_whole(hull->girth));
     if (u && !galv_latent_distance(a->file.model, u, &radius, &nearest)) {
-        json_object_set_new(root, "radius", json_number(radius));
-        json_object_set_new(root, "nearest", json_number(nearest));
+        json_result_set(root, "radius", json_number(radius));
+        json_result_set(root, "nearest", json_number(nearest));
     }
     if (a->output) {
-        json_object_set_new(root, "file", json_string(a->output));
+        json_result_set(root, "file", json_string(a->output));
         return json_print(root, &a->warnings);
     }
     json_t *points = json_array();
     for (size_t p = 0; p < hull->npoints; p++)
-        json_array_append_new(points, json_numbers(3, xyz + 3 * p));
-    json_object_set_new(root, "points", points);
+        json_result_append(points, json_numbers(3, xyz + 3 * p));
+    json_result_set(root, "points", points);
     return json_print(root, &a->warnings);
 }
 

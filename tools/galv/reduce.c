@@ -2,6 +2,7 @@
 #include "cli.h"
 #include "commands.h"
 #include "hull.h"
+#include "json_result.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -247,10 +248,10 @@ static bool write_model(const struct reduction *r)
 static int print_json(const struct reduction *r)
 {
     json_t *root = json_model(r->model);
-    json_object_set_new(root, "weights", json_string(r->a->area ? "area" : "equal"));
+    json_result_set(root, "weights", json_string(r->a->area ? "area" : "equal"));
     if (r->a->random)
-        json_object_set_new(root, "seed", json_whole(r->a->seed));
-    json_object_set_new(root, "seconds", json_number(r->seconds));
+        json_result_set(root, "seed", json_whole(r->a->seed));
+    json_result_set(root, "seconds", json_number(r->seconds));
     return json_print(root, &r->a->warnings);
 }
 

@@ -2,10 +2,10 @@
 #include "cli.h"
 #include "commands.h"
 #include "hull_input.h"
+#include "json_result.h"
 
 #include <igabem/solve.h>
 
-#include <errno.h>
 #include <getopt.h>
 #include <jansson.h>
 #include <stdlib.h>
@@ -92,27 +92,24 @@ static int print_json(const struct hull_input *input, const igabem_hull_info *in
                       const igabem_options *options)
 {
     json_t *json = json_object();
-    json_object_set_new(json, "usable", json_true());
-    json_object_set_new(json, "note", json_string(input->note));
-    json_object_set_new(json, "patches", json_integer((json_int_t)info->patches));
-    json_object_set_new(json, "length", json_real(info->length));
-    json_object_set_new(json, "surface_piercing", json_boolean(info->surface_piercing));
-    json_object_set_new(json, "transom", json_boolean(info->transom != IGABEM_TRANSOM_NONE));
-    json_object_set_new(json, "stern", json_string(hull_stern(info)));
-    json_object_set_new(json, "nu_s", json_real(info->nu_s));
-    json_object_set_new(json, "volume", json_real(info->hydrostatics.volume));
-    json_object_set_new(json, "wetted_area", json_real(info->hydrostatics.wetted_area));
-    json_object_set_new(json, "formulation",
-                        json_string(igabem_formulation_name(options->formulation)));
+    json_result_set(json, "usable", json_true());
+    json_result_set(json, "note", json_string(input->note));
+    json_result_set(json, "patches", json_integer((json_int_t)info->patches));
+    json_result_set(json, "length", json_real(info->length));
+    json_result_set(json, "surface_piercing", json_boolean(info->surface_piercing));
+    json_result_set(json, "transom", json_boolean(info->transom != IGABEM_TRANSOM_NONE));
+    json_result_set(json, "stern", json_string(hull_stern(info)));
+    json_result_set(json, "nu_s", json_real(info->nu_s));
+    json_result_set(json, "volume", json_real(info->hydrostatics.volume));
+    json_result_set(json, "wetted_area", json_real(info->hydrostatics.wetted_area));
+    json_result_set(json, "formulation",
+                    json_string(igabem_formulation_name(options->formulation)));
     json_t *warnings = json_array();
     const char *sentence;
     for (size_t k = 0; (sentence = igabem_hull_warning(input->hull, k)); k++)
-        json_array_append_new(warnings, json_string(sentence));
-    json_object_set_new(json, "warnings", warnings);
-    int failed = json_dumpf(json, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(12)) != 0 ||
-                 putchar('\n') == EOF || fflush(stdout) == EOF;
-    json_decref(json);
-    return failed ? cli_fail("standard output: %s", strerror(errno)) : CLI_OK;
+        json_result_append(warnings, json_string(sentence));
+    json_result_set(json, "warnings", warnings);
+    return json_result_print(json, JSON_INDENT(1) | JSON_REAL_PRECISION(12));
 }
 
 static int print_text(const struct hull_input *input, const igabem_hull_info *info,
@@ -130,9 +127,7 @@ static int print_text(const struct hull_input *input, const igabem_hull_info *in
     const char *sentence;
     for (size_t k = 0; (sentence = igabem_hull_warning(input->hull, k)); k++)
         printf("warning: %s\n", sentence);
-    if (fflush(stdout) == EOF || ferror(stdout))
-        return cli_fail("standard output: %s", strerror(errno));
-    return CLI_OK;
+    return cli_printed();
 }
 
 int command_check(int argc, char **argv)

@@ -1,6 +1,7 @@
 /* igabem green: the Kelvin Green function's local and wave part at the points of a CSV table. */
 #include "cli.h"
 #include "commands.h"
+#include "json_result.h"
 
 #include <igabem/kelvin.h>
 
@@ -63,9 +64,7 @@ static int print_json(json_t *object)
 {
     if (!object)
         return cli_fail("out of memory");
-    int failed = json_dumpf(object, stdout, JSON_REAL_PRECISION(17) | JSON_COMPACT);
-    json_decref(object);
-    return failed ? cli_fail("standard output cannot be written") : cli_print("\n");
+    return json_result_print(object, JSON_REAL_PRECISION(17) | JSON_COMPACT);
 }
 
 static int print_points_json(size_t n, const double *v)
@@ -74,8 +73,8 @@ static int print_points_json(size_t n, const double *v)
     for (size_t k = 0; root && k < COLUMNS; k++) {
         json_t *column = json_array();
         for (size_t i = 0; column && i < n; i++)
-            json_array_append_new(column, json_real(v[k * n + i]));
-        json_object_set_new(root, names[k], column);
+            json_result_append(column, json_real(v[k * n + i]));
+        json_result_set(root, names[k], column);
     }
     return print_json(root);
 }
@@ -193,13 +192,13 @@ static int run_bench(bool json)
         for (int part = 0; part < 2; part++) {
             double batch = measure(part == 1, BENCH_POINTS, v), single = measure(part == 1, 1, v);
             if (json)
-                json_object_set_new(entry, what[part],
-                                    json_pack("{s:f,s:f}", "batch", batch, "single", single));
+                json_result_set(entry, what[part],
+                                json_pack("{s:f,s:f}", "batch", batch, "single", single));
             else
                 printf("%-8s %-8s %8.0f %8.0f\n", regions[region], what[part], batch, single);
         }
         if (json)
-            json_object_set_new(root, regions[region], entry);
+            json_result_set(root, regions[region], entry);
     }
     free(v);
     return json ? print_json(root) : cli_print("");

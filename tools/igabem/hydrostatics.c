@@ -1,9 +1,9 @@
 /* igabem hydrostatics: the page a naval architect wants of a hull at rest. */
 #include "cli.h"
 #include "commands.h"
+#include "json_result.h"
 #include "particulars.h"
 
-#include <errno.h>
 #include <getopt.h>
 #include <jansson.h>
 #include <math.h>
@@ -121,25 +121,22 @@ static int print_json(const igabem_hull *hull, const struct particulars *p)
 {
     json_t *json = json_object(), *curve = json_array();
     for (size_t i = 0; i < p->count; i++)
-        json_object_set_new(json, p->item[i].key,
-                            isfinite(p->item[i].value) ? json_real(p->item[i].value) : json_null());
+        json_result_set(json, p->item[i].key,
+                        isfinite(p->item[i].value) ? json_real(p->item[i].value) : json_null());
     for (size_t i = 0; i < p->stations; i++) {
         json_t *station = json_object();
-        json_object_set_new(station, "x", json_real(p->station_x[i]));
-        json_object_set_new(station, "area", json_real(p->station_area[i]));
-        json_array_append_new(curve, station);
+        json_result_set(station, "x", json_real(p->station_x[i]));
+        json_result_set(station, "area", json_real(p->station_area[i]));
+        json_result_append(curve, station);
     }
-    json_object_set_new(json, "section_areas", curve);
-    json_object_set_new(json, "note", json_string(p->note));
+    json_result_set(json, "section_areas", curve);
+    json_result_set(json, "note", json_string(p->note));
     json_t *warnings = json_array();
     const char *sentence;
     for (size_t k = 0; (sentence = igabem_hull_warning(hull, k)); k++)
-        json_array_append_new(warnings, json_string(sentence));
-    json_object_set_new(json, "warnings", warnings);
-    int failed = json_dumpf(json, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(12)) != 0 ||
-                 putchar('\n') == EOF || fflush(stdout) == EOF;
-    json_decref(json);
-    return failed ? cli_fail("standard output: %s", strerror(errno)) : CLI_OK;
+        json_result_append(warnings, json_string(sentence));
+    json_result_set(json, "warnings", warnings);
+    return json_result_print(json, JSON_INDENT(1) | JSON_REAL_PRECISION(12));
 }
 
 static int print_table(const struct particulars *p, const char *path)
@@ -152,9 +149,7 @@ static int print_table(const struct particulars *p, const char *path)
     printf("\nsection areas, both sides\n%14s %14s\n", "x m", "m^2");
     for (size_t i = 0; i < p->stations; i++)
         printf("%14.7g %14.7g\n", p->station_x[i], p->station_area[i]);
-    if (fflush(stdout) == EOF || ferror(stdout))
-        return cli_fail("standard output: %s", strerror(errno));
-    return CLI_OK;
+    return cli_printed();
 }
 
 int command_hydrostatics(int argc, char **argv)

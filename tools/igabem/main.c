@@ -27,9 +27,8 @@ static int print_help(void)
                      "\nExit status: 0 success, 1 failure, 2 wrong usage.\n");
 }
 
-int main(int argc, char **argv)
+static int run_igabem(int argc, char **argv)
 {
-    cli_set_name("igabem");
     if (argc < 2)
         return cli_usage("a command is missing");
     if (strcmp(argv[1], "--help") == 0)
@@ -42,4 +41,9 @@ int main(int argc, char **argv)
             return commands[i].run(argc - 1, argv + 1);
         }
     return cli_usage("unknown command '%s'", argv[1]);
+}
+
+int main(int argc, char **argv)
+{
+    return cli_main("igabem", run_igabem, argc, argv);
 }

@@ -14,7 +14,7 @@ enum { SPAN_CELLS = 4, PICTURE_ALONG = 160, PICTURE_ACROSS = 40 };
 static int finish(struct cli_file *file, const char *path)
 {
     if (!cli_file_commit(file))
-        return cli_fail("%s: %s", path, strerror(errno));
+        return cli_fail("%s: cannot be written: %s", path, strerror(errno));
     return CLI_OK;
 }
 
@@ -167,7 +167,7 @@ static int write_hull_grid(const struct patch_sample *samples, size_t patches, c
         return cli_fail("out of memory");
     if (!cli_file_open(&file, path)) {
         free(quads);
-        return cli_fail("%s: %s", path, strerror(errno));
+        return cli_fail("%s: cannot be written: %s", path, strerror(errno));
     }
     for (size_t p = 0; p < patches; p++) {
         for (size_t i = 0; i + 1 < samples[p].nu; i++)
@@ -316,7 +316,7 @@ int solve_write_waves(const igabem_solution *solution, const struct solve_run *r
     if (code == CLI_OK && picture)
         code = solve_draw_waves(run, &grid, path) ? CLI_OK : CLI_FAILED;
     else if (code == CLI_OK && !cli_file_open(&file, path))
-        code = cli_fail("%s: %s", path, strerror(errno));
+        code = cli_fail("%s: cannot be written: %s", path, strerror(errno));
     else if (code == CLI_OK) {
         if (ends_with(path, ".csv")) {
             write_wave_csv(file.stream, &grid);
@@ -345,7 +345,7 @@ int solve_write_spectrum(const igabem_solution *solution, const char *path)
         return cli_fail("%s", igabem_last_error());
     struct cli_file file;
     if (!cli_file_open(&file, path))
-        return cli_fail("%s: %s", path, strerror(errno));
+        return cli_fail("%s: cannot be written: %s", path, strerror(errno));
     fprintf(file.stream,
             "# %s: Kochin function H, m^3/s, and d C_w/d t of one sign of t = tan(wave angle)\n"
             "t,degrees,h_re,h_im,dcw_dt\n",

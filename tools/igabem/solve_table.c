@@ -1,7 +1,6 @@
 #include "cli.h"
 #include "solve.h"
 
-#include <errno.h>
 #include <math.h>
 #include <string.h>
 
@@ -169,7 +168,5 @@ int solve_print_table(const struct solve_run *run)
         print_spread(run);
     for (size_t c = 0; run->levels > 1 && c < run->cases; c++)
         print_ladder(run, c);
-    if (fflush(stdout) == EOF || ferror(stdout))
-        return cli_fail("standard output: %s", strerror(errno));
-    return CLI_OK;
+    return cli_printed();
 }

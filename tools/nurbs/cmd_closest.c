@@ -1,4 +1,5 @@
 /* Points to parameters, planes to lines. */
+#include "json_result.h"
 #include "nurbs_tool.h"
 
 #include <math.h>
@@ -15,8 +16,8 @@ static int print_rows(const char *header, size_t rows, size_t columns, const dou
         for (size_t k = 0; k < rows; k++) {
             json_t *row = json_array();
             for (size_t c = 0; c < columns; c++)
-                json_array_append_new(row, json_real(values[k * columns + c]));
-            json_array_append_new(list, row);
+                json_result_append(row, json_real(values[k * columns + c]));
+            json_result_append(list, row);
         }
         return print_json(json_pack("{s:s,s:o}", "columns", header, "rows", list));
     }
@@ -24,7 +25,7 @@ static int print_rows(const char *header, size_t rows, size_t columns, const dou
     for (size_t k = 0; k < rows; k++)
         for (size_t c = 0; c < columns; c++)
             printf("%.17g%c", values[k * columns + c], c + 1 < columns ? ',' : '\n');
-    return fflush(stdout) == EOF ? cli_fail("standard output cannot be written") : CLI_OK;
+    return cli_printed();
 }
 
 /* Columns of the result: x, y, z, patch, u, v, distance. */

@@ -1,3 +1,4 @@
+#include "json_result.h"
 #include "nurbs_tool.h"
 
 #include <stdlib.h>
@@ -26,10 +27,10 @@ static int print_json_rows(size_t n, size_t triples, const double *uv, const dou
     for (size_t k = 0; k < n; k++) {
         json_t *row = json_array();
         for (size_t c = 0; c < 2; c++)
-            json_array_append_new(row, json_real(uv[2 * k + c]));
+            json_result_append(row, json_real(uv[2 * k + c]));
         for (size_t c = 0; c < 3 * triples; c++)
-            json_array_append_new(row, json_real(values[3 * triples * k + c]));
-        json_array_append_new(rows, row);
+            json_result_append(row, json_real(values[3 * triples * k + c]));
+        json_result_append(rows, row);
     }
     return print_json(json_pack("{s:s,s:o}", "columns", headers[order], "rows", rows));
 }
@@ -56,8 +57,7 @@ static int evaluate(const nurbs_surface *surface, const struct cli_table *table,
     } else {
         printf("%s\n", headers[order]);
         print_rows(n, triples, uv, values);
-        if (fflush(stdout) == EOF)
-            code = cli_fail("standard output cannot be written");
+        code = cli_printed();
     }
     free(uv);
     return code;

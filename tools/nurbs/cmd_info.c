@@ -1,3 +1,4 @@
+#include "json_result.h"
 #include "nurbs_tool.h"
 
 #include <math.h>
@@ -40,7 +41,7 @@ static int describe(const nurbs_patches *patches, size_t index, bool json, json_
     size_t rows = nurbs_patches_parameters(patches, index, 0, &unused),
            columns = nurbs_patches_parameters(patches, index, 1, &unused);
     if (json) {
-        json_array_append_new(
+        json_result_append(
             list,
             json_pack("{s:[i,i],s:[I,I],s:[I,I],s:s,s:[f,f,f],s:[f,f,f],s:f,s:f,s:[I,I]}", "degree",
                       degree[0], degree[1], "size", (json_int_t)size[0], (json_int_t)size[1],
@@ -109,7 +110,7 @@ static json_t *pack_topology(const nurbs_patches *patches, const nurbs_topology 
     json_t *joints = json_array(), *edges = json_array();
     for (size_t k = 0; k < t->joints; k++) {
         const nurbs_joint *j = &t->joint[k];
-        json_array_append_new(
+        json_result_append(
             joints, json_pack("{s:[I,I],s:[s,s],s:[[f,f],[f,f]],s:f,s:f,s:b}", "patches",
                               (json_int_t)(j->edge[0] / 4), (json_int_t)(j->edge[1] / 4), "edges",
                               side_names[j->edge[0] % 4], side_names[j->edge[1] % 4], "ranges",
@@ -118,11 +119,11 @@ static json_t *pack_topology(const nurbs_patches *patches, const nurbs_topology 
     }
     for (size_t k = 0; k < t->edges; k++) {
         const nurbs_edge *e = &t->edge[k];
-        json_array_append_new(edges,
-                              json_pack("{s:I,s:s,s:f,s:f,s:b,s:b}", "patch", (json_int_t)e->patch,
-                                        "edge", side_names[e->side], "length", e->length, "free",
-                                        fmax(e->length - e->joined, 0), "collapsed", e->collapsed,
-                                        "centre_plane", in_centre_plane(patches, e, tolerance)));
+        json_result_append(edges,
+                           json_pack("{s:I,s:s,s:f,s:f,s:b,s:b}", "patch", (json_int_t)e->patch,
+                                     "edge", side_names[e->side], "length", e->length, "free",
+                                     fmax(e->length - e->joined, 0), "collapsed", e->collapsed,
+                                     "centre_plane", in_centre_plane(patches, e, tolerance)));
     }
     return json_pack("{s:f,s:f,s:I,s:o,s:o}", "tolerance", tolerance, "gap", t->gap, "inconsistent",
                      (json_int_t)t->inconsistent, "shared", joints, "edges", edges);

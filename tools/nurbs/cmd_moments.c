@@ -1,3 +1,4 @@
+#include "json_result.h"
 #include "nurbs_tool.h"
 
 static void print_line(const char *name, const char *unit, double value, double error)
@@ -38,8 +39,8 @@ static int run(int argc, char **argv)
         code = library_failure();
     if (code == CLI_OK && json) {
         json_t *result = pack_moments(&m);
-        json_object_set_new(result, "file", json_string(argv[optind]));
-        json_object_set_new(result, "error", pack_moments(&e));
+        json_result_set(result, "file", json_string(argv[optind]));
+        json_result_set(result, "error", pack_moments(&e));
         code = print_json(result);
     } else if (code == CLI_OK) {
         print_moments(argv[optind], &m, &e);

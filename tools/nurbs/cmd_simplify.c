@@ -1,3 +1,4 @@
+#include "json_result.h"
 #include "nurbs_tool.h"
 
 static int simplify_all(const nurbs_patches *patches, double tolerance, bool geometric,
@@ -24,9 +25,8 @@ static int simplify_all(const nurbs_patches *patches, double tolerance, bool geo
                                : add_with_parameters(surface, patches, k, light);
         if (status == NURBS_OK) {
             worst = bound > worst ? bound : worst;
-            json_array_append_new(sizes,
-                                  json_pack("[I,I]", (json_int_t)nurbs_surface_size(surface, 0),
-                                            (json_int_t)nurbs_surface_size(surface, 1)));
+            json_result_append(sizes, json_pack("[I,I]", (json_int_t)nurbs_surface_size(surface, 0),
+                                                (json_int_t)nurbs_surface_size(surface, 1)));
             if (!json)
                 printf("patch %zu: %zu x %zu -> %zu x %zu control points, moved at most %.3g m\n",
                        k, nurbs_surface_size(nurbs_patches_get(patches, k), 0),

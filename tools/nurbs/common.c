@@ -1,3 +1,4 @@
+#include "json_result.h"
 #include "nurbs_tool.h"
 
 #include <math.h>
@@ -105,13 +106,7 @@ int parse_options(int argc, char **argv, size_t n, const tool_option *own, opera
 
 int print_json(json_t *object)
 {
-    char *text = object ? json_dumps(object, JSON_REAL_PRECISION(17)) : NULL;
-    json_decref(object);
-    if (!text)
-        return cli_fail("a result cannot be written as JSON");
-    printf("%s\n", text);
-    free(text);
-    return fflush(stdout) == EOF ? cli_fail("standard output cannot be written") : CLI_OK;
+    return json_result_print(object, JSON_REAL_PRECISION(17));
 }
 
 int library_failure(void)

@@ -1,4 +1,5 @@
 #include "nurbs_tool.h"
+#include "json_result.h"
 
 int load_hull(const char *path, const nurbs_hull_options *options, nurbs_hull **hull)
 {
@@ -15,6 +16,6 @@ json_t *hull_steps(const nurbs_hull *hull)
     json_t *list = json_array();
     const char *step;
     for (size_t k = 1; (step = nurbs_hull_step(hull, k)); k++)
-        json_array_append_new(list, json_string(step));
+        json_result_append(list, json_string(step));
     return list;
 }

@@ -36,9 +36,8 @@ static int print_help(void)
                      "Exit status: 0 success, 1 the run failed, 2 wrong usage.\n");
 }
 
-int main(int argc, char **argv)
+static int run_nurbs(int argc, char **argv)
 {
-    cli_set_name("nurbs");
     if (argc < 2)
         return cli_usage("no command");
     if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "help") == 0)
@@ -59,4 +58,9 @@ int main(int argc, char **argv)
     }
     opterr = 0;
     return command->run(argc - 1, argv + 1);
+}
+
+int main(int argc, char **argv)
+{
+    return cli_main("nurbs", run_nurbs, argc, argv);
 }

@@ -15,9 +15,12 @@ typedef struct numeric_locale {
 void numeric_locale_set(numeric_locale *scope);
 void numeric_locale_restore(numeric_locale *scope);
 
-/* Fills *text with the whole file and a terminating zero (caller frees) and *length. */
+/* Fills *text with the whole file, without a byte order mark, and a terminating zero (caller frees)
+ * and *length. Refuses what is too large to be a hull. */
 nurbs_status textfile_read(const char *path, char **text, size_t *length);
 
+/* Written beside PATH, or beside what the link PATH leads to; a device or FIFO is written as it is.
+ */
 typedef struct outfile {
     FILE *stream;
     char *path, *temporary;

@@ -127,12 +127,12 @@ bool plot_save(struct plot *plot, const char *path)
     struct cli_file file;
     bool good = close_sheet(plot);
     if (good && !cli_file_open(&file, path))
-        good = cli_refuse("%s: %s", path, strerror(errno));
+        good = cli_refuse("%s: cannot be written: %s", path, strerror(errno));
     else if (good && !write_picture(plot, path, file.stream)) {
         cli_file_abandon(&file);
         good = cli_refuse("%s: the picture cannot be drawn or written", path);
     } else if (good && !cli_file_commit(&file))
-        good = cli_refuse("%s: %s", path, strerror(errno));
+        good = cli_refuse("%s: cannot be written: %s", path, strerror(errno));
     plot_free(plot);
     return good;
 }

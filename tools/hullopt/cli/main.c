@@ -102,10 +102,9 @@ static int print_help(const struct options *options)
     return code;
 }
 
-int main(int argc, char **argv)
+static int run_hullopt(int argc, char **argv)
 {
     struct options options = {.froude = NAN, .overrides = {-1, -1}, .start = cli_seconds()};
-    cli_set_name("hullopt");
     if (argc < 2)
         return cli_usage("no command, expected init, check, run or report");
     if (strcmp(argv[1], "--help") == 0)
@@ -123,4 +122,9 @@ int main(int argc, char **argv)
         return code;
     }
     return cli_usage("unknown command '%s', expected init, check, run or report", argv[1]);
+}
+
+int main(int argc, char **argv)
+{
+    return cli_main("hullopt", run_hullopt, argc, argv);
 }

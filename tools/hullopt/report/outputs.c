@@ -3,6 +3,7 @@
 #include "cli.h"
 #include "cli/folder.h"
 #include "core/constraints.h"
+#include "json_result.h"
 
 #include <errno.h>
 #include <math.h>
@@ -17,25 +18,25 @@ static bool write_summary(const json_t *summary, const char *path)
 {
     struct cli_file file;
     if (!cli_file_open(&file, path))
-        return cli_refuse("%s: %s", path, strerror(errno));
-    if (json_dumpf(summary, file.stream, JSON_INDENT(2) | JSON_REAL_PRECISION(15)) != 0 ||
-        fputc('\n', file.stream) == EOF) {
+        return cli_refuse("%s: cannot be written: %s", path, strerror(errno));
+    if (!json_result_write(file.stream, json_incref((json_t *)summary),
+                           JSON_INDENT(2) | JSON_REAL_PRECISION(15))) {
         cli_file_abandon(&file);
-        return cli_refuse("%s: cannot be written", path);
+        return false;
     }
-    return cli_file_commit(&file) || cli_refuse("%s: %s", path, strerror(errno));
+    return cli_file_commit(&file) || cli_refuse("%s: cannot be written: %s", path, strerror(errno));
 }
 
 static bool write_report(const struct results *results, const char *path)
 {
     struct cli_file file;
     if (!cli_file_open(&file, path))
-        return cli_refuse("%s: %s", path, strerror(errno));
+        return cli_refuse("%s: cannot be written: %s", path, strerror(errno));
     if (!report_write(file.stream, results)) {
         cli_file_abandon(&file);
         return cli_refuse("%s: cannot be written", path);
     }
-    return cli_file_commit(&file) || cli_refuse("%s: %s", path, strerror(errno));
+    return cli_file_commit(&file) || cli_refuse("%s: cannot be written: %s", path, strerror(errno));
 }
 
 static bool write_patch(const struct results *r, const nurbs_surface *surface, const char *what,
@@ -103,14 +104,13 @@ static bool print_figures(const struct results *r, const char *folder)
            r->n_rows ? r->verdict.statement : "not done yet: the run is not finished");
     if (folder)
         printf("%-22s%s/report.html\n", "report", folder);
-    return fflush(stdout) != EOF || cli_refuse("standard output: %s", strerror(errno));
+    return cli_printed() == CLI_OK;
 }
 
 static bool print_summary(const json_t *summary)
 {
-    bool ok = json_dumpf(summary, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(15)) == 0 &&
-              putchar('\n') != EOF && fflush(stdout) != EOF;
-    return ok || cli_refuse("standard output: %s", strerror(errno));
+    return json_result_print(json_incref((json_t *)summary),
+                             JSON_INDENT(2) | JSON_REAL_PRECISION(15)) == CLI_OK;
 }
 
 static bool write_files(const struct results *r, const char *folder, const json_t *summary)

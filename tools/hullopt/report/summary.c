@@ -1,5 +1,6 @@
 #include "cli.h"
 #include "core/constraints.h"
+#include "json_result.h"
 #include "report/outputs.h"
 #include "report/particulars.h"
 
@@ -9,24 +10,24 @@
 /* JSON has no NaN: a figure that is not there is null. */
 static void put(json_t *object, const char *key, double value)
 {
-    json_object_set_new(object, key, isfinite(value) ? json_real(value) : json_null());
+    json_result_set(object, key, isfinite(value) ? json_real(value) : json_null());
 }
 
 static void put_count(json_t *object, const char *key, size_t value)
 {
-    json_object_set_new(object, key, json_integer((json_int_t)value));
+    json_result_set(object, key, json_integer((json_int_t)value));
 }
 
 static void put_flag(json_t *object, const char *key, bool value)
 {
-    json_object_set_new(object, key, json_boolean(value));
+    json_result_set(object, key, json_boolean(value));
 }
 
 static json_t *array(size_t n, const double *values)
 {
     json_t *list = json_array();
     for (size_t i = 0; i < n; i++)
-        json_array_append_new(list, isfinite(values[i]) ? json_real(values[i]) : json_null());
+        json_result_append(list, isfinite(values[i]) ? json_real(values[i]) : json_null());
     return list;
 }
 
@@ -34,19 +35,19 @@ static json_t *evaluation(const struct results *r, const struct evaluation *e)
 {
     json_t *o = json_object();
     put_count(o, "id", (size_t)e->id);
-    json_object_set_new(o, "phase", json_string(e->phase));
+    json_result_set(o, "phase", json_string(e->phase));
     put(o, "cw", e->cw);
     put(o, "cw_pressure", e->cw_pressure);
     put(o, "rw", e->rw);
     if (e->speeds)
-        json_object_set_new(o, "cw_speeds", array(e->speeds, e->cw_speed));
+        json_result_set(o, "cw_speeds", array(e->speeds, e->cw_speed));
     put(o, "share_beyond_cutoff", e->share_beyond_cutoff);
     put(o, "condition", e->condition);
     put(o, "volume", e->volume);
     put(o, "wetted_area", e->wetted_area);
     put_count(o, "dofs", e->dofs);
     put(o, "simplification_bound", e->bound);
-    json_object_set_new(o, "latent", array(galv_model_modes(r->problem->model), e->u));
+    json_result_set(o, "latent", array(galv_model_modes(r->problem->model), e->u));
     return o;
 }
 
@@ -63,7 +64,7 @@ static json_t *constraints(const struct results *r)
         put(row, "change", f.ratio - 1);
         put(row, "largest_ratio", f.ratio);
         put_flag(row, "satisfied", f.kept);
-        json_object_set_new(o, f.name, row);
+        json_result_set(o, f.name, row);
     }
     return o;
 }
@@ -75,10 +76,10 @@ static json_t *particulars(const struct results *r)
     size_t n = particulars_list(r, list);
     for (size_t i = 0; i < n; i++) {
         json_t *row = json_object();
-        json_object_set_new(row, "unit", json_string(list[i].unit));
+        json_result_set(row, "unit", json_string(list[i].unit));
         put(row, "before", list[i].value[0]);
         put(row, "after", list[i].value[1]);
-        json_object_set_new(o, list[i].key, row);
+        json_result_set(o, list[i].key, row);
     }
     return o;
 }
@@ -89,9 +90,9 @@ static json_t *verification(const struct results *r)
     for (size_t i = 0; i < r->n_rows; i++) {
         const struct verification *v = &r->rows[i];
         json_t *o = json_object();
-        json_object_set_new(o, "group", json_string(verification_group_name(v->group)));
-        json_object_set_new(o, "label", json_string(v->label));
-        json_object_set_new(o, "formulation", json_string(v->formulation));
+        json_result_set(o, "group", json_string(verification_group_name(v->group)));
+        json_result_set(o, "label", json_string(v->label));
+        json_result_set(o, "formulation", json_string(v->formulation));
         put(o, "fr", v->froude);
         put_count(o, "refine", (size_t)v->refine);
         put(o, "stern_length", v->stern_length);
@@ -103,8 +104,8 @@ static json_t *verification(const struct results *r)
         put_count(o, "dofs_before", v->dofs_parent);
         put_count(o, "dofs_after", v->dofs_best);
         put(o, "seconds", v->seconds);
-        json_object_set_new(o, "note", json_string(v->note));
-        json_array_append_new(list, o);
+        json_result_set(o, "note", json_string(v->note));
+        json_result_append(list, o);
     }
     return list;
 }
@@ -113,17 +114,16 @@ static json_t *robust(const struct verdict *v)
 {
     json_t *o = json_object();
     put_flag(o, "formulations", v->formulations);
-    json_object_set_new(o, "resolution",
-                        v->has_resolution ? json_boolean(v->resolution) : json_null());
-    json_object_set_new(o, "filter", v->has_filter ? json_boolean(v->filter) : json_null());
-    json_object_set_new(o, "speeds", v->has_speeds ? json_boolean(v->speeds) : json_null());
+    json_result_set(o, "resolution", v->has_resolution ? json_boolean(v->resolution) : json_null());
+    json_result_set(o, "filter", v->has_filter ? json_boolean(v->filter) : json_null());
+    json_result_set(o, "speeds", v->has_speeds ? json_boolean(v->speeds) : json_null());
     put_flag(o, "only_objective", v->only_objective);
     put(o, "reduction_percent_pressure", 100 * v->pressure);
     put_count(o, "other_models", v->models);
     put_count(o, "confirm", v->confirm);
     put_count(o, "partly", v->partly);
     put_count(o, "deny", v->deny);
-    json_object_set_new(o, "statement", json_string(v->statement));
+    json_result_set(o, "statement", json_string(v->statement));
     return o;
 }
 
@@ -138,11 +138,11 @@ static json_t *settings(const char *text)
         if (name < sizeof key && strncmp(line + name, " = ", 3) == 0) {
             snprintf(key, sizeof key, "%.*s", (int)name, line);
             snprintf(value, sizeof value, "%.*s", (int)(length - name - 3), line + name + 3);
-            json_object_set_new(
+            json_result_set(
                 o, key, cli_parse_double(value, &number) ? json_real(number) : json_string(value));
         } else if (name < sizeof key) {
             snprintf(key, sizeof key, "%.*s", (int)name, line);
-            json_object_set_new(o, key, json_string(""));
+            json_result_set(o, key, json_string(""));
         }
         line += length + (line[length] == '\n');
     }
@@ -156,7 +156,7 @@ static json_t *solver(const igabem_options *options)
     json_t *o = json_object();
     for (size_t i = 0; i < n; i++) {
         if (list[i].text)
-            json_object_set_new(o, list[i].name, json_string(list[i].text));
+            json_result_set(o, list[i].name, json_string(list[i].text));
         else
             put(o, list[i].name, list[i].number);
     }
@@ -173,10 +173,10 @@ static json_t *failures(const struct results *r)
         json_t *o = json_object();
         put_count(o, "id", (size_t)e->id);
         size_t stage = strcspn(e->reason, ":");
-        json_object_set_new(o, "stage", json_stringn(e->reason, stage));
-        json_object_set_new(o, "reason",
-                            json_string(e->reason + stage + strspn(e->reason + stage, ": ")));
-        json_array_append_new(list, o);
+        json_result_set(o, "stage", json_stringn(e->reason, stage));
+        json_result_set(o, "reason",
+                        json_string(e->reason + stage + strspn(e->reason + stage, ": ")));
+        json_result_append(list, o);
     }
     return list;
 }
@@ -188,26 +188,26 @@ static void put_latent(json_t *o, const galv_model *model)
     put_count(o, "latent_samples", galv_model_samples(model));
     put(o, "retained_variance", galv_model_retained(model));
     put(o, "trace", galv_model_trace(model));
-    json_object_set_new(o, "eigenvalues",
-                        array(galv_model_spectrum(model), galv_model_eigenvalues(model)));
+    json_result_set(o, "eigenvalues",
+                    array(galv_model_spectrum(model), galv_model_eigenvalues(model)));
 }
 
 json_t *summary_make(const struct results *r)
 {
     struct results_times times = results_times(r);
     json_t *o = json_object();
-    json_object_set_new(o, "format", json_string("hullopt-summary"));
+    json_result_set(o, "format", json_string("hullopt-summary"));
     put_count(o, "version", 1);
-    json_object_set_new(o, "tool", json_string("hullopt " TOOL_VERSION));
+    json_result_set(o, "tool", json_string("hullopt " TOOL_VERSION));
     put_flag(o, "complete", r->complete);
-    json_object_set_new(o, "stop", r->stop ? json_string(r->stop) : json_null());
+    json_result_set(o, "stop", r->stop ? json_string(r->stop) : json_null());
     json_t *best = evaluation(r, r->best);
     if (r->parameters) {
-        json_object_set_new(best, "parameters", array(r->n_parameters, r->parameters));
+        json_result_set(best, "parameters", array(r->n_parameters, r->parameters));
         put(best, "parameters_residual", r->residual);
     }
-    json_object_set_new(o, "baseline", evaluation(r, r->baseline));
-    json_object_set_new(o, "best", best);
+    json_result_set(o, "baseline", evaluation(r, r->baseline));
+    json_result_set(o, "best", best);
     put(o, "reduction_percent", 100 * (1 - r->best->cw / r->baseline->cw));
     put_count(o, "evaluations", r->n - 1); /* without the parent */
     put_count(o, "initial_samples", r->problem->config->initial);
@@ -219,12 +219,12 @@ json_t *summary_make(const struct results *r)
     put(o, "seconds_solve", times.solve);
     put(o, "seconds_proposal", times.propose);
     put_count(o, "sessions", r->sessions);
-    json_object_set_new(o, "constraints", constraints(r));
-    json_object_set_new(o, "particulars", particulars(r));
-    json_object_set_new(o, "verification", verification(r));
-    json_object_set_new(o, "robust", robust(&r->verdict));
-    json_object_set_new(o, "failures", failures(r));
-    json_object_set_new(o, "settings", settings(r->problem->config->text));
-    json_object_set_new(o, "solver", solver(&r->problem->solver));
+    json_result_set(o, "constraints", constraints(r));
+    json_result_set(o, "particulars", particulars(r));
+    json_result_set(o, "verification", verification(r));
+    json_result_set(o, "robust", robust(&r->verdict));
+    json_result_set(o, "failures", failures(r));
+    json_result_set(o, "settings", settings(r->problem->config->text));
+    json_result_set(o, "solver", solver(&r->problem->solver));
     return o;
 }

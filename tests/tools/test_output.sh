@@ -1,0 +1,156 @@
+#!/usr/bin/env bash
+# What commands do when their output cannot be written: every subcommand with standard output full,
+# closed and broken ends with exit 1 and one sentence; -o goes through links, FIFOs and devices.
+# usage: test_output.sh BIN_FOLDER SOURCE_FOLDER
+set -u
+bin=$(realpath "$1")
+source=$(realpath "$2")
+PATH=$bin:$PATH
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failures=0
+fail() {
+    echo "FAILED: $*" >&2
+    failures=$((failures + 1))
+}
+prepare() { "$@" >log 2>&1 || { echo "cannot prepare: $*"; cat log; exit 1; }; }
+
+# refuses WORDS CODE COMMAND...: exit code 1 and one line that holds the words.
+refuses() {
+    local words=$1 code=$2
+    shift 2
+    [ "$code" = 1 ] && [ "$(grep -c "$words" err)" = 1 ] ||
+        fail "exit $code, expected 1 and once '$words': $* ($(head -c 300 err))"
+}
+walk() {
+    "$@" >/dev/full 2>err
+    refuses "standard output cannot be written: No space left on device" $? "$@"
+    "$@" >&- 2>err
+    refuses "standard output cannot be written: Bad file descriptor" $? "$@"
+    { sleep 0.1; "$@" 2>err; echo $? >code; } | true
+    refuses "standard output cannot be written: Broken pipe" "$(cat code)" "$@"
+}
+
+prepare nurbs make wigley --length 1 -o hull.json
+prepare nurbs grid hull.json --rows 12 --columns 7 -o grid.csv
+printf 'u,v\n0.5,0.5\n' >uv.csv
+printf 'x,y,z\n0.1,0.2,-0.05\n' >points.csv
+printf 'X,Y,Z\n1,2,-0.5\n' >green.csv
+shape=$source/examples/wigley_shape.yaml
+prepare galv reduce --hull grid.csv --shape "$shape" --random 40 --seed 1 -o model.h5
+cat >study.yaml <<'YAML'
+store: study.db
+variables:
+  - {name: x, lower: 0, upper: 1}
+objective: {command: "echo {x}"}
+search: {evaluations: 6, initial: 4}
+YAML
+prepare bayesopt run study.yaml
+prepare bayesopt ask asked.db --lower 0 --upper 1
+sed -e "s|hull: hulls|hull: $source/examples/hulls|; s|shape: |shape: $source/examples/|" \
+    -e 's/samples: .*/samples: 50/; s/initial: .*/initial: 4/; s/iterations: .*/iterations: 1/' \
+    -e 's/elements_u: 20/elements_u: 8/; s/elements_v: 6/elements_v: 3/' \
+    "$source/examples/wigley_small.yaml" >run.yaml
+prepare hullopt run run.yaml --out run
+
+# Without --json several commands of nurbs are silent.
+walk nurbs info hull.json
+walk nurbs info hull.json --json
+walk nurbs eval hull.json --at uv.csv --derivatives 1
+walk nurbs hydrostatics hull.json
+walk nurbs moments hull.json
+walk nurbs closest hull.json --at points.csv
+walk nurbs make sphere -o sphere.json --json
+walk nurbs grid hull.json -o again.csv --json
+walk nurbs skin grid.csv -o skin.json --json
+walk nurbs fit grid.csv -o fit.json --json
+walk nurbs simplify hull.json --tolerance 1e-3 -o light.json --json
+walk nurbs wetted hull.json --level -0.01 -o wetted.json --json
+walk nurbs cut hull.json --plane z=-0.01
+walk nurbs edit hull.json reverse:u -o edit.json --json
+walk nurbs convert hull.json hull.igs --json
+walk nurbs plot hull.json -o hull.svg --json
+walk igabem hydrostatics hull.json
+walk igabem hydrostatics hull.json --json
+walk igabem check hull.json
+walk igabem check hull.json --json
+walk igabem solve hull.json --fr 0.3 --formulation michell --elements 8,3
+walk igabem solve hull.json --fr 0.3 --formulation michell --elements 8,3 --json
+green() { igabem green <green.csv; }
+walk green
+walk galv reduce --hull grid.csv --shape "$shape" --random 40
+walk galv reduce --hull grid.csv --shape "$shape" --random 40 --json
+walk galv extend model.h5 --random 4 -o more.h5
+walk galv info model.h5
+walk galv project model.h5 --hull grid.csv
+walk galv reconstruct model.h5 --latent 0.01
+walk galv backmap model.h5 --latent 0.01
+walk bayesopt run study.yaml
+walk bayesopt run study.yaml --json
+walk bayesopt ask asked.db
+walk bayesopt best study.db
+walk bayesopt status study.db
+walk bayesopt status study.db --json
+walk bayesopt export study.db
+walk bayesopt design lhs 4 2
+walk hullopt report run
+walk hullopt report run --json
+walk hullopt run run.yaml --out run --resume
+
+# Texts of every subcommand that --help names, and of those above which print nothing.
+for tool in nurbs igabem galv bayesopt hullopt; do
+    walk $tool --help
+    walk $tool --version
+    for command in $($tool --help | sed -n 's/^ \{0,7\}\([a-z][a-z]*\)  .*/\1/p; s/^ *\(usage: \)\?'$tool' \([a-z]*\) .*/\2/p' | sort -u); do
+        $tool "$command" --help >text 2>&1 || continue
+        walk $tool "$command" --help
+    done
+done
+
+# Where an output file goes.
+mkdir -p elsewhere
+ln -s elsewhere/target.json link.json
+nurbs make sphere -o link.json && [ -L link.json ] && nurbs info elsewhere/target.json >/dev/null ||
+    fail "a symbolic link is replaced instead of followed"
+nurbs make sphere -o link.json && [ -L link.json ] || fail "a link to a file that exists"
+ln -s /dev/full full.json
+nurbs make sphere -o full.json 2>err
+refuses "full.json: cannot be written: No space left on device" $? nurbs make -o full.json
+ln -s loop.json loop.json
+nurbs make sphere -o loop.json 2>err
+refuses "loop.json: cannot be written: Too many levels of symbolic links" $? nurbs make -o loop.json
+mkdir folder.json
+nurbs make sphere -o folder.json 2>err
+refuses "folder.json: cannot be written: Is a directory" $? nurbs make -o folder.json
+nurbs make sphere -o missing/sphere.json 2>err
+refuses "missing/sphere.json: cannot be written: No such file or directory" $? nurbs make -o missing/
+for output in "nurbs make sphere -o" "galv reconstruct model.h5 --latent 0.01 -o" "bayesopt export study.db -o"; do
+    mkfifo pipe.json
+    cat pipe.json >through &
+    reader=$!
+    $output pipe.json 2>err || fail "$output a FIFO: $(cat err)"
+    wait $reader
+    [ -p pipe.json ] && [ "$(wc -c <through)" -gt 100 ] || fail "$output: nothing came through the FIFO"
+    rm pipe.json
+    # After what an earlier program wrote, and before what a later one writes.
+    { echo first; $output /dev/stdout 2>err; echo last; } >joined
+    case $output in nurbs*) continue ;; esac # its extension tells the format
+    [ "$(sed -n '1p;$p' joined)" = "first
+last" ] && [ "$(wc -c <joined)" -gt 100 ] || fail "$output /dev/stdout: $(head -c 200 joined)"
+    $output full.json 2>err
+    refuses "full.json: cannot be written: No space left on device" $? $output full.json
+    $output elsewhere 2>err
+    refuses "elsewhere: cannot be written: Is a directory" $? $output elsewhere
+done
+chmod 640 elsewhere/target.json
+nurbs make sphere -o elsewhere/target.json && [ "$(stat -c %a elsewhere/target.json)" = 640 ] ||
+    fail "rights of a file that is replaced"
+[ -z "$(find . -name '*.??????' ! -name '*.*.*' -newer run.yaml | grep -E '\.[A-Za-z0-9]{6}$')" ] || fail "temporary files are left: $(ls)"
+
+# A closed standard output is not the next file that is opened.
+nurbs make sphere -o closed.json --json >&- 2>err
+nurbs info closed.json >/dev/null 2>err || fail "output went into the file: $(cat err)"
+
+[ $failures -eq 0 ] && echo "all checks passed"
+exit $((failures > 0))
