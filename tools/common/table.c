@@ -73,76 +73,133 @@ static bool read_header(char *line, struct cli_table *table)
     return true;
 }
 
+/* What a message shows of a field: its beginning, without what is not plain text. */
+enum { SHOWN = 40 };
+static const char *shown(const char *text, char out[SHOWN + 4])
+{
+    size_t n = 0;
+    for (; n < SHOWN && text[n]; n++)
+        out[n] = (char)(isprint((unsigned char)text[n]) ? text[n] : '?');
+    strcpy(out + n, text[n] ? "..." : "");
+    return out;
+}
+
 static bool read_row(char *line, const char *path, size_t number, double *row, size_t columns)
 {
     size_t k = 0;
     for (char *start = line; start; k++) {
-        char *comma = strchr(start, ',');
+        char *comma = strchr(start, ','), part[SHOWN + 4];
         if (comma)
             *comma = '\0';
         char *text = trim(start);
-        if (k < columns && !cli_parse_double(text, &row[k])) {
-            cli_fail("%s:%zu: field %zu is '%s', expected a finite number", path, number, k + 1,
-                     text);
-            return false;
-        }
+        if (k < columns && !cli_parse_double(text, &row[k]))
+            return cli_refuse("%s:%zu: field %zu is '%s', expected a finite number", path, number,
+                              k + 1, shown(text, part));
         start = comma ? comma + 1 : NULL;
     }
-    if (k != columns) {
-        cli_fail("%s:%zu: %zu fields, expected %zu as in the first line", path, number, k, columns);
-        return false;
+    return k == columns || cli_refuse("%s:%zu: %zu fields, expected %zu as in the first line", path,
+                                      number, k, columns);
+}
+
+/* Far beyond any table of designs or points, far below what would fill a machine. */
+static const size_t MOST_LINE = (size_t)16 << 20, MOST_NUMBERS = (size_t)1 << 28;
+
+/* One line without its end. */
+struct line {
+    char *text;
+    size_t room, number;
+};
+
+/* Fills the next line. *end: there was none. False after the sentence. */
+static bool read_line(FILE *stream, const char *path, struct line *line, bool *end)
+{
+    size_t n = 0;
+    int byte;
+    line->number++;
+    while ((byte = getc_unlocked(stream)) != EOF && byte != '\n') {
+        if (byte == '\0')
+            return cli_refuse("%s:%zu: holds a zero byte, expected text", path, line->number);
+        if (n == MOST_LINE)
+            return cli_refuse("%s:%zu: a line of more than %zu bytes, expected a table", path,
+                              line->number, MOST_LINE);
+        if (n + 1 >= line->room) {
+            size_t room = line->room ? 2 * line->room : 256;
+            char *more = realloc(line->text, room);
+            if (!more)
+                return cli_refuse("%s: out of memory", path);
+            line->text = more;
+            line->room = room;
+        }
+        line->text[n++] = (char)byte;
     }
+    if (byte == EOF && ferror(stream))
+        return cli_refuse("%s: %s", path, strerror(errno));
+    *end = byte == EOF && n == 0;
+    if (n > 0)
+        line->text[n] = '\0';
+    else if (line->text)
+        *line->text = '\0';
     return true;
 }
 
-static bool read_stream(FILE *stream, const char *path, struct cli_table *table)
+/* Room for one more row. */
+static bool add_row(const char *path, size_t *room, struct cli_table *table)
 {
-    char *line = NULL;
-    size_t capacity = 0, number = 0, room = 0;
-    bool ok = true;
-    while (ok && getline(&line, &capacity, stream) >= 0) {
-        number++;
-        char *text =
-            trim(number == 1 && strncmp(line, MARK, sizeof MARK - 1) == 0 ? line + sizeof MARK - 1
-                                                                          : line);
+    if (table->rows < *room)
+        return true;
+    size_t rows = *room ? 2 * *room : 256;
+    if (rows > MOST_NUMBERS / table->columns)
+        return cli_refuse("%s: more than %zu numbers, too many for a table", path,
+                          *room * table->columns);
+    double *values = realloc(table->values, rows * table->columns * sizeof *values);
+    if (values)
+        table->values = values;
+    size_t *lines = realloc(table->lines, rows * sizeof *lines);
+    if (lines)
+        table->lines = lines;
+    if (!values || !lines)
+        return cli_refuse("%s: out of memory", path);
+    *room = rows;
+    return true;
+}
+
+/* Names from the first line, which is left for a row if it is one: a file without a header must not
+ * lose it. */
+static bool read_first(char *text, const char *path, bool *row, struct cli_table *table)
+{
+    *row = all_numbers(text);
+    return (*row ? skip_header(count_fields(text), table) : read_header(text, table)) ||
+           cli_refuse("%s: out of memory", path);
+}
+
+static bool read_lines(FILE *stream, const char *path, struct line *line, struct cli_table *table)
+{
+    size_t room = 0;
+    for (bool end = false, row = true;;) {
+        if (!read_line(stream, path, line, &end))
+            return false;
+        if (end)
+            return table->names || cli_refuse("%s: empty, expected a header line", path);
+        if (!line->text)
+            continue;
+        bool marked = line->number == 1 && strncmp(line->text, MARK, sizeof MARK - 1) == 0;
+        char *text = trim(line->text + (marked ? sizeof MARK - 1 : 0));
         if (*text == '\0' || *text == '#')
             continue;
-        if (!table->names) {
-            bool row = all_numbers(text);
-            ok = (row ? skip_header(count_fields(text), table) : read_header(text, table)) ||
-                 cli_refuse("out of memory");
-            if (!row || !ok)
-                continue;
+        if (!table->names && !read_first(text, path, &row, table))
+            return false;
+        if (!row) { /* was the header */
+            row = true;
+            continue;
         }
-        if (table->rows == room) {
-            room = room ? 2 * room : 256;
-            double *more = realloc(table->values, room * table->columns * sizeof *more);
-            if (more)
-                table->values = more;
-            size_t *lines = realloc(table->lines, room * sizeof *lines);
-            if (lines)
-                table->lines = lines;
-            if (!more || !lines) {
-                cli_fail("out of memory");
-                ok = false;
-                break;
-            }
-        }
-        table->lines[table->rows] = number;
-        ok = read_row(text, path, number, table->values + table->rows * table->columns,
-                      table->columns);
-        table->rows += ok;
+        if (!add_row(path, &room, table))
+            return false;
+        table->lines[table->rows] = line->number;
+        if (!read_row(text, path, line->number, table->values + table->rows * table->columns,
+                      table->columns))
+            return false;
+        table->rows++;
     }
-    if (ok && ferror(stream)) {
-        cli_fail("%s: %s", path, strerror(errno));
-        ok = false;
-    }
-    if (ok && !table->names) {
-        cli_fail("%s: empty, expected a header line", path);
-        ok = false;
-    }
-    free(line);
-    return ok;
 }
 
 bool cli_table_read(const char *path, struct cli_table *table)
@@ -154,7 +211,9 @@ bool cli_table_read(const char *path, struct cli_table *table)
         cli_fail("%s: %s", path, strerror(errno));
         return false;
     }
-    bool ok = read_stream(stream, standard ? "standard input" : path, table);
+    struct line line = {0};
+    bool ok = read_lines(stream, standard ? "standard input" : path, &line, table);
+    free(line.text);
     if (!standard)
         fclose(stream);
     if (!ok)

@@ -200,6 +200,8 @@ nurbs_status nurbs_patches_read_json(const char *path, nurbs_patches **patches)
     json_error_t error;
     json_t *root = json_loadb(text, length, JSON_REJECT_DUPLICATES, &error);
     free(text);
+    if (!root && json_error_code(&error) == json_error_out_of_memory)
+        return nurbs_fail(NURBS_ERROR_MEMORY, "%s: out of memory", path);
     if (!root)
         return nurbs_fail(NURBS_ERROR_FORMAT, "%s:%d: %s", path, error.line, error.text);
     status = json_is_object(root)
