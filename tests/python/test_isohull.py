@@ -1,0 +1,233 @@
+"""The Python module against closed forms and the files that the libraries are tested with."""
+
+import csv
+import gc
+import os
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+from isohull import Error, bayesopt, galv, igabem, nurbs, version
+
+SOURCE = sys.argv.pop()
+
+
+def rows(path):
+    with open(os.path.join(SOURCE, path)) as stream:
+        return list(csv.DictReader(line for line in stream if not line.startswith("#")))
+
+
+class Surfaces(unittest.TestCase):
+    def test_wigley_is_its_formula(self):
+        hull = nurbs.Surface.wigley(2, 0.2, 0.125)
+        uv = np.random.default_rng(1).random((50, 2))
+        x, y, z = hull(uv).T
+        np.testing.assert_allclose(y, 0.1 * (1 - x**2) * (1 - (z / 0.125) ** 2), atol=1e-15)
+
+    def test_derivatives_agree_with_differences(self):
+        hull = nurbs.Surface.ellipsoid(2, 0.4, 0.3, 0.5)
+        self.assertIsNotNone(hull.weights)
+        values, h = hull([[0.3, 0.4]], order=1)[0], 1e-6
+        np.testing.assert_allclose(values[1], (hull([[0.3 + h, 0.4]]) - hull([[0.3 - h, 0.4]]))[0] / (2 * h), atol=1e-8)
+        np.testing.assert_allclose(values[2], (hull([[0.3, 0.4 + h]]) - hull([[0.3, 0.4 - h]]))[0] / (2 * h), atol=1e-8)
+
+    def test_made_again_from_its_arrays(self):
+        for hull in nurbs.Surface.wigley(), nurbs.Surface.ellipsoid(1, 0.2, 0.1, 0.3):
+            again = nurbs.Surface(hull.degree, *hull.knots, hull.points, hull.weights)
+            uv = np.random.default_rng(2).random((20, 2))
+            np.testing.assert_array_equal(hull(uv), again(uv))
+
+    def test_skin_passes_through_the_points_and_is_simplified(self):
+        u, v = np.meshgrid(np.linspace(0, 1, 9), np.linspace(0, 1, 7), indexing="ij")
+        points = np.stack([u, 0.1 * np.sin(np.pi * u) * v, v - 1], axis=-1)
+        hull = nurbs.Surface.skin(points)
+        self.assertEqual(hull.degree, (3, 3))
+        np.testing.assert_allclose(hull.points[0, 0], points[0, 0], atol=1e-15)
+        light, bound = hull.simplify(1e-3)
+        self.assertLess(np.prod(light.shape), np.prod(hull.shape))
+        self.assertLessEqual(bound, 1e-3)
+
+    def test_files(self):
+        with tempfile.TemporaryDirectory() as folder:
+            hull = nurbs.Surface.wigley()
+            for name in "hull.json", "hull.igs", "hull.step":
+                path = os.path.join(folder, name)
+                nurbs.write(path, [hull, hull])
+                read = nurbs.read(path)
+                self.assertEqual(len(read), 2)
+                np.testing.assert_allclose(read[1].points, hull.points, atol=1e-15)
+
+    def test_hull(self):
+        # Volume 4/9 L B T, waterplane 2/3 L B of a Wigley hull.
+        hull = nurbs.Hull([nurbs.Surface.wigley(1, 0.1, 0.0625)])
+        self.assertAlmostEqual(hull.hydrostatics["volume"], 4 / 9 * 0.1 * 0.0625, 9)
+        self.assertAlmostEqual(hull.hydrostatics["waterplane_area"], 2 / 3 * 0.1, 9)
+        self.assertEqual(len(hull.hydrostatics["centroid"]), 3)
+        points = hull.design_grid(21, 9)
+        self.assertEqual(points.shape, (21, 9, 3))
+        wide = hull.rebuild(points * [1, 1.1, 1])
+        self.assertAlmostEqual(wide.hydrostatics["volume"] / hull.hydrostatics["volume"], 1.1, 3)
+        self.assertAlmostEqual(hull.length, 1, 9)
+
+    def test_refusals(self):
+        with self.assertRaises(Error) as caught:
+            nurbs.read("no-such-file.json")
+        self.assertIn("no-such-file.json", str(caught.exception))
+        self.assertLess(caught.exception.status, 0)
+        with self.assertRaisesRegex(Error, "knot"):
+            nurbs.Surface((1, 1), [0, 0, 1, 0.5], [0, 0, 1, 1], np.zeros((2, 2, 3)))
+        with self.assertRaisesRegex(ValueError, "shape"):
+            nurbs.Surface((1, 1), [0, 0, 1, 1], [0, 0, 1, 1], np.zeros((4, 3)))
+        with self.assertRaisesRegex(TypeError, "no option 'drought'"):
+            nurbs.Hull([nurbs.Surface.wigley()], drought=1)
+
+    def test_surfaces_outlive_what_they_came_from(self):
+        surfaces = nurbs.Hull([nurbs.Surface.wigley()]).surfaces
+        gc.collect()
+        self.assertTrue(np.isfinite(surfaces[0].points).all())
+
+
+class Green(unittest.TestCase):
+    def test_reference(self):
+        table = [r for r in rows("tests/data/kelvin_reference.csv") if r["N"] and r["W"]]
+        X, Y, Z = (np.array([float(r[k]) for r in table]) for k in "XYZ")
+        n, w = igabem.local(X, Y, Z)[0], igabem.wave(X, Y, Z)[0]
+        for value, key in (n, "N"), (w, "W"):
+            expected = np.array([float(r[key]) for r in table])
+            np.testing.assert_allclose(value, expected, rtol=1e-8, atol=1e-8)
+
+    def test_broadcast_and_gradient(self):
+        field, source, h = np.array([-2.0, 0.5, -0.3]), np.array([[0, 0, -0.4], [0.5, 0.1, -0.2]]), 1e-6
+        g, gradient = igabem.green(1.5, field, source)
+        self.assertEqual((g.shape, gradient.shape), ((2,), (2, 3)))
+        for k in range(3):
+            step = h * np.eye(3)[k]
+            slope = (igabem.green(1.5, field + step, source)[0] - igabem.green(1.5, field - step, source)[0]) / (2 * h)
+            np.testing.assert_allclose(gradient[:, k], slope, atol=1e-6)
+        only = igabem.green(1.5, field, source[0], igabem.RANKINE)[0]
+        self.assertAlmostEqual(float(only), -1 / (4 * np.pi * np.linalg.norm(field - source[0])), 14)
+
+    def test_refuses_points_above_the_water(self):
+        with self.assertRaises(Error):
+            igabem.green(1, [0, 0, 1], [0, 0, -1])
+
+
+class Flow(unittest.TestCase):
+    def test_submerged_spheroid(self):
+        # C_w by spheroidal harmonics.
+        hull = nurbs.Hull.read(os.path.join(SOURCE, "examples/hulls/spheroid.json"))
+        flow = igabem.solve(hull, 0.4)
+        self.assertAlmostEqual(flow.forces["cw"] / 0.01227124422, 1, 3)
+        zeta = flow.elevation(np.linspace(-3, 1, 6).reshape(2, 3), 0.4)
+        self.assertEqual(zeta.shape, (2, 3))
+        self.assertTrue(np.isfinite(zeta).all() and np.abs(zeta).max() > 1e-4)
+        h, density = flow.kochin(np.linspace(-20, 20, 4001))
+        self.assertEqual(h.dtype, complex)
+        self.assertAlmostEqual(np.trapz(density, dx=0.01) / flow.forces["cw"], 1, 3)
+        velocity, pressure = flow.velocity([[0.5, 0.5]])
+        self.assertTrue(np.isfinite(velocity).all() and np.isfinite(pressure).all())
+
+    def test_options(self):
+        hull = nurbs.Hull([nurbs.Surface.wigley()])
+        flow = igabem.solve(hull, 0.35, formulation="michell", elements_u=12, elements_v=4)
+        self.assertAlmostEqual(flow.forces["cw"] / 0.001247921974, 1, 3)
+        self.assertTrue(np.isnan(flow.forces["cw_pressure"]))
+        with self.assertRaisesRegex(ValueError, "panels"):
+            igabem.solve(hull, 0.3, formulation="panels")
+        with self.assertRaises(Error):
+            igabem.solve(hull, -0.3)
+
+
+class Latent(unittest.TestCase):
+    points = nurbs.Hull([nurbs.Surface.wigley()]).design_grid(15, 7)
+
+    def test_fields_are_found_again(self):
+        # Two orthonormal fields, uniform on [-1, 1] and [-0.1, 0.1]: variances 1/3 and 1/300.
+        fields = np.zeros((2, *self.points.shape))
+        fields[0, 3, 3, 1] = fields[1, 5, 2, 1] = 1
+        shape = galv.Shape.fields(fields, [-1, -0.1], [1, 0.1])
+        model = galv.Model(shape, self.points, samples=4000, modes=2)
+        np.testing.assert_allclose(model.eigenvalues[:2], [1 / 3, 1 / 300], rtol=0.05)
+        self.assertAlmostEqual(abs(model.vectors[0][3, 3, 1]), 1, 3)
+        self.assertAlmostEqual(model.trace, model.eigenvalues.sum(), 12)
+        self.assertEqual(model.latent.shape, (4000, 2))
+        u = [0.4, 0.03]
+        np.testing.assert_allclose(model.project(model.displace(u) - self.points), u, atol=1e-12)
+        x, distance = model.backmap(u)
+        np.testing.assert_allclose(self.points + shape.displace(self.points, x), model.displace(u), atol=1e-9)
+        self.assertLess(distance, 1e-9)
+
+    def test_functions_and_given_samples(self):
+        def widen(points, x):
+            return points * [0, x[0], 0]
+
+        shape = galv.Shape.function(widen, [-0.1], [0.1])
+        model = galv.Model(shape, self.points, samples=np.linspace(-0.1, 0.1, 11)[:, None])
+        self.assertEqual(model.modes, 1)
+        self.assertAlmostEqual(model.retained, 1, 12)
+        np.testing.assert_allclose(shape.displace(self.points, [0.1])[..., 1], 0.1 * self.points[..., 1])
+
+        def broken(points, x):
+            raise KeyError("mine")
+
+        with self.assertRaises(KeyError):
+            galv.Model(galv.Shape.function(broken, [-1], [1]), self.points, samples=10)
+
+    def test_sines(self):
+        shape = galv.Shape.sine([[1, 1, 1], [2, 1, 1]], [1, 1], [-2e-3] * 2, [2e-3] * 2, self.points)
+        model = galv.Model(shape, self.points, samples=500, variance=0.99)
+        self.assertEqual(model.modes, 2)
+        np.testing.assert_array_equal(shape.lower, [-2e-3] * 2)
+        with self.assertRaises(ValueError):
+            model.displace([1, 2, 3])
+
+
+class SearchTest(unittest.TestCase):
+    @staticmethod
+    def bowl(x):
+        return float(((x - [0.3, -0.2]) ** 2).sum())
+
+    def test_minimises(self):
+        search = bayesopt.Search([-1, -1], [1, 1], evaluations=30, initial=8)
+        for id, x in search:
+            search.tell(id, self.bowl(x))
+        self.assertEqual(len(search), 30)
+        x, f = search.best()
+        np.testing.assert_allclose(x, [0.3, -0.2], atol=1e-2)
+        mean, deviation = search.predict([x, [1, 1]])
+        self.assertAlmostEqual(mean[0], f, 3)
+        self.assertLess(deviation[0], deviation[1])
+
+    def test_failures_and_constraints(self):
+        search = bayesopt.Search([-1, -1], [1, 1], evaluations=20, initial=8, constraints=[(-np.inf, 0.0)])
+        for id, x in search:
+            if x[0] > 0.8:
+                search.tell_failed(id, "the mesh folded")
+            else:
+                search.tell(id, self.bowl(x), [x[0]])
+        x, f = search.best()
+        self.assertTrue(search.feasible and x[0] <= 0)
+
+    def test_goes_on_from_its_store(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "run.db")
+            search = bayesopt.Search([0], [1], store=path, evaluations=6, initial=3)
+            id, x = search.ask()[0]
+            search.tell(id, 1.5)
+            del search
+            gc.collect()
+            again = bayesopt.Search([0], [1], store=path, evaluations=6, initial=3)
+            self.assertEqual(len(again), 1)
+            self.assertEqual(again.best()[1], 1.5)
+            with self.assertRaises(Error):
+                again.tell(id, 2)
+
+
+class Suite(unittest.TestCase):
+    def test_version(self):
+        self.assertRegex(version(), r"^\d+\.\d+\.\d+$")
+
+
+unittest.main()
