@@ -153,6 +153,8 @@ static bayesopt_status connect(const char *path, int flags, struct store **out)
     if (!status)
         status = store_execute(store, "PRAGMA synchronous = FULL");
     if (!status)
+        status = store_execute(store, "PRAGMA temp_store = MEMORY");
+    if (!status)
         status = check_intact(store);
     if (status) {
         disconnect(store);

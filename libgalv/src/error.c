@@ -31,8 +31,12 @@ const char *galv_version(void)
 galv_status galv_fail(galv_status code, const char *format, ...)
 {
     va_list args;
+    /* Its sentences name what was to be held. */
+    int said = code == GALV_ERROR_MEMORY
+                   ? snprintf(last_error, sizeof last_error, "%s", "no memory for ")
+                   : 0;
     va_start(args, format);
-    vsnprintf(last_error, sizeof last_error, format, args);
+    vsnprintf(last_error + said, sizeof last_error - (size_t)said, format, args);
     va_end(args);
     return code;
 }

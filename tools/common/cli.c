@@ -52,6 +52,13 @@ bool cli_refuse(const char *format, ...)
     return false;
 }
 
+void *cli_needed(void *memory)
+{
+    if (!memory)
+        exit(cli_fail("out of memory"));
+    return memory;
+}
+
 int cli_usage(const char *format, ...)
 {
     va_list args;
@@ -188,9 +195,7 @@ static bool parse_range(char *copy, double **out, size_t *n)
     if (!(steps < MOST_NUMBERS))
         return false;
     *n = (size_t)steps + 1;
-    *out = malloc(*n * sizeof **out);
-    if (!*out)
-        return false;
+    *out = cli_needed(malloc(*n * sizeof **out));
     for (size_t i = 0; i < *n; i++)
         (*out)[i] = part[0] + (double)i * part[2];
     return true;
@@ -201,8 +206,9 @@ static bool parse_commas(char *copy, double **out, size_t *n)
     size_t most = 1;
     for (const char *c = copy; *c; c++)
         most += *c == ',';
-    if (most > MOST_NUMBERS || !(*out = malloc(most * sizeof **out)))
+    if (most > MOST_NUMBERS)
         return false;
+    *out = cli_needed(malloc(most * sizeof **out));
     *n = 0;
     for (char *start = copy; start;) {
         char *comma = strchr(start, ',');
@@ -220,9 +226,7 @@ static bool parse_commas(char *copy, double **out, size_t *n)
 
 bool cli_parse_list(const char *text, double **out, size_t *n)
 {
-    char *copy = strdup(text);
-    if (!copy)
-        return false;
+    char *copy = cli_needed(strdup(text));
     bool ok = strchr(text, ':') ? parse_range(copy, out, n) : parse_commas(copy, out, n);
     free(copy);
     return ok;

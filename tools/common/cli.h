@@ -31,6 +31,10 @@ __attribute__((format(printf, 1, 2))) int cli_usage(const char *format, ...);
  */
 __attribute__((format(printf, 1, 2))) bool cli_refuse(const char *format, ...);
 
+/* MEMORY, or the end of the command with "out of memory": while no file is being written, as when
+ * options and inputs are read. */
+void *cli_needed(void *memory);
+
 /* Prints help or version on stdout and returns as cli_printed(). */
 int cli_print(const char *text);
 int cli_version(void);

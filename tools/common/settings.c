@@ -50,9 +50,8 @@ static char *resolve(const char *config, const char *path)
 {
     const char *slash = config ? strrchr(config, '/') : NULL;
     size_t folder = slash && *path != '/' ? (size_t)(slash - config) + 1 : 0;
-    char *joined = malloc(folder + strlen(path) + 1);
-    if (joined)
-        strcpy((char *)memcpy(joined, config ? config : "", folder) + folder, path);
+    char *joined = cli_needed(malloc(folder + strlen(path) + 1));
+    strcpy((char *)memcpy(joined, config ? config : "", folder) + folder, path);
     return joined;
 }
 
@@ -98,18 +97,20 @@ static bool store(const struct setting *row, const char *text, size_t i, void *a
         return ok;
     default:
         free(((char **)at)[i]);
-        ((char **)at)[i] = row->type == SETTING_FILE ? resolve(path, text) : strdup(text);
-        return ((char **)at)[i] != NULL;
+        ((char **)at)[i] =
+            row->type == SETTING_FILE ? resolve(path, text) : cli_needed(strdup(text));
+        return true;
     }
 }
 
 /* Appends the numbers of a text, "0.2,0.3" or "0.2:0.3:0.05", to the list. */
 static bool store_list(const struct setting *row, const char *text, double **list, size_t *n)
 {
-    double *part = NULL, *more;
+    double *part = NULL, *more = NULL;
     size_t m = 0;
-    bool ok =
-        cli_parse_list(text, &part, &m) && (more = realloc(*list, (*n + m) * sizeof *more)) != NULL;
+    bool ok = cli_parse_list(text, &part, &m);
+    if (ok)
+        more = cli_needed(realloc(*list, (*n + m) * sizeof *more));
     for (size_t i = 0; ok && i < m; i++) {
         *list = more;
         more[(*n)++] = part[i];
@@ -123,42 +124,35 @@ void settings_add(struct settings_source *source, size_t line, const char *key, 
                   ...)
 {
     struct complaint *more =
-        realloc(source->complaints, (source->n + 1) * sizeof *source->complaints);
+        cli_needed(realloc(source->complaints, (source->n + 1) * sizeof *source->complaints));
     char *text = NULL;
     size_t length, i = source->n;
-    FILE *out = open_memstream(&text, &length);
-    source->complaints = more ? more : source->complaints;
-    if (!out)
-        return;
+    FILE *out = cli_needed(open_memstream(&text, &length));
+    source->complaints = more;
     fprintf(out, "%s%s%s%s", source->prefix, *source->prefix && *key ? "." : "", key,
             *source->prefix || *key ? " " : "");
     va_list args;
     va_start(args, format);
     vfprintf(out, format, args);
     va_end(args);
-    fclose(out);
-    for (; more && i > 0 && more[i - 1].line > line; i--)
+    cli_needed(fclose(out) == 0 ? text : NULL);
+    for (; i > 0 && more[i - 1].line > line; i--)
         more[i] = more[i - 1];
-    if (more)
-        more[i] = (struct complaint){line, text};
-    else
-        free(text);
-    source->n += more != NULL;
+    more[i] = (struct complaint){line, text};
+    source->n++;
 }
 
 void settings_refuse(struct settings_source *source, size_t line, const char *key,
                      const struct setting *row, const char *format, ...)
 {
     char text[160], expected[400] = "";
-    FILE *out = fmemopen(expected, sizeof expected, "w");
+    FILE *out = cli_needed(fmemopen(expected, sizeof expected, "w"));
     va_list args;
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
-    if (out) {
-        settings_print_expected(row, out);
-        fclose(out);
-    }
+    settings_print_expected(row, out);
+    fclose(out);
     settings_add(source, line, key, "%s, expected %s", text, expected);
 }
 
@@ -202,15 +196,15 @@ bool settings_set_text(struct settings_source *source, const struct setting *row
                        const char *key, const char *text, void *target)
 {
     bool whole = row->type == SETTING_COUNT || row->type == SETTING_INTEGER;
-    char *copy = strdup(text), *texts[MOST_ENTRIES] = {copy};
-    size_t n = copy != NULL;
-    for (char *at = copy; at && row->n_most && n < MOST_ENTRIES;) {
+    char *copy = cli_needed(strdup(text)), *texts[MOST_ENTRIES] = {copy};
+    size_t n = 1;
+    for (char *at = copy; row->n_most && n < MOST_ENTRIES;) {
         if ((at = strpbrk(at, whole ? ",x:" : ",")) == NULL)
             break;
         *at++ = '\0';
         texts[n++] = at + strspn(at, " ");
     }
-    bool ok = n && settings_set(source, row, line, key, n, texts, target);
+    bool ok = settings_set(source, row, line, key, n, texts, target);
     free(copy);
     return ok;
 }

@@ -1,3 +1,4 @@
+#include "cli.h"
 #include "settings_internal.h"
 
 #include <errno.h>
@@ -142,9 +143,9 @@ static void read_rows(struct settings_source *source, const struct setting *row,
     char name[380], **at = (char **)(void *)(target + row->offset);
     const yaml_node_item_t *items = node->data.sequence.items.start;
     size_t n = (size_t)(node->data.sequence.items.top - items);
-    *at = calloc(n + 1, row->size);
-    *(size_t *)(void *)(target + row->count) = *at ? n : 0;
-    for (size_t i = 0; *at && i < n; i++) {
+    *at = cli_needed(calloc(n + 1, row->size));
+    *(size_t *)(void *)(target + row->count) = n;
+    for (size_t i = 0; i < n; i++) {
         const yaml_node_t *entry = node_at(source, items[i]);
         snprintf(name, sizeof name, "%s%s%s.%zu", source->prefix, *source->prefix ? "." : "", key,
                  i + 1);
@@ -171,14 +172,14 @@ static void read_value(struct settings_source *source, const struct setting *row
     } else if (rows) {
         read_rows(source, row, node, row->key, target);
     } else {
-        char **texts = calloc(n + 1, sizeof *texts);
-        for (size_t i = 0; texts && ok && i < n; i++) {
+        char **texts = cli_needed(calloc(n + 1, sizeof *texts));
+        for (size_t i = 0; ok && i < n; i++) {
             const yaml_node_t *entry = list ? node_at(source, items[i]) : node;
             ok = (texts[i] = (char *)scalar(entry)) != NULL;
             if (!ok)
                 complain_form(source, entry, line_of(entry), row->key, row);
         }
-        if (texts && ok)
+        if (ok)
             settings_set(source, row, line, row->key, n, texts, target);
         free(texts);
     }

@@ -1,5 +1,7 @@
 #include "h5.h"
 
+#include "cli.h"
+
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -64,7 +66,7 @@ double *h5_load_array(hid_t place, const char *name, int dimensions, size_t *row
     if (H5Sget_simple_extent_ndims(space) == dimensions &&
         H5Sget_simple_extent_dims(space, size, NULL) >= 0 && size[0] && size[1] &&
         file_can_hold(place, (double)size[0] * (double)size[1]))
-        values = malloc(size[0] * size[1] * sizeof *values);
+        values = cli_needed(malloc(size[0] * size[1] * sizeof *values));
     if (values && H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) {
         free(values);
         values = NULL;

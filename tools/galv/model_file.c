@@ -196,8 +196,9 @@ static void read_field(hid_t h5, galv_field *field, double *number, double **slo
 static bool read_model(hid_t h5, galv_model **model)
 {
     size_t n = galv_model_field_count();
-    galv_field *fields = calloc(n, sizeof *fields);
-    double *numbers = calloc(n, sizeof *numbers), **slots = calloc(n, sizeof *slots);
+    galv_field *fields = cli_needed(calloc(n, sizeof *fields));
+    double *numbers = cli_needed(calloc(n, sizeof *numbers));
+    double **slots = cli_needed(calloc(n, sizeof *slots));
     bool ok = fields && numbers && slots;
     for (size_t i = 0; i < n && ok; i++) {
         fields[i] = galv_model_field(NULL, i);

@@ -5,6 +5,7 @@
 
 #include <jansson.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -189,6 +190,23 @@ static nurbs_status read_root(const char *path, const json_t *root, nurbs_patche
     return status;
 }
 
+/* jansson tells some lacks of memory as invalid tokens. A text that it refuses a second time, while
+ * there is memory for several of it, is at fault itself. */
+static nurbs_status parse(const char *path, const char *text, size_t length, json_t **root)
+{
+    json_error_t error;
+    *root = json_loadb(text, length, JSON_REJECT_DUPLICATES, &error);
+    if (!*root)
+        *root = json_loadb(text, length, JSON_REJECT_DUPLICATES, &error);
+    if (*root)
+        return NURBS_OK;
+    void *room = malloc(8 * length + 65536);
+    bool memory = room != NULL && json_error_code(&error) != json_error_out_of_memory;
+    free(room);
+    return memory ? nurbs_fail(NURBS_ERROR_FORMAT, "%s:%d: %s", path, error.line, error.text)
+                  : nurbs_fail(NURBS_ERROR_MEMORY, "%s: no memory for %zu bytes", path, 8 * length);
+}
+
 nurbs_status nurbs_patches_read_json(const char *path, nurbs_patches **patches)
 {
     char *text;
@@ -197,13 +215,11 @@ nurbs_status nurbs_patches_read_json(const char *path, nurbs_patches **patches)
     nurbs_status status = textfile_read(path, &text, &length);
     if (status != NURBS_OK)
         return status;
-    json_error_t error;
-    json_t *root = json_loadb(text, length, JSON_REJECT_DUPLICATES, &error);
+    json_t *root;
+    status = parse(path, text, length, &root);
     free(text);
-    if (!root && json_error_code(&error) == json_error_out_of_memory)
-        return nurbs_fail(NURBS_ERROR_MEMORY, "%s: out of memory", path);
-    if (!root)
-        return nurbs_fail(NURBS_ERROR_FORMAT, "%s:%d: %s", path, error.line, error.text);
+    if (status != NURBS_OK)
+        return status;
     status = json_is_object(root)
                  ? nurbs_patches_create(patches)
                  : nurbs_fail(NURBS_ERROR_FORMAT, "%s: expected a JSON object", path);

@@ -1,0 +1,149 @@
+/* Preloaded (LD_PRELOAD) into a program, makes its k-th allocation fail:
+ *
+ * - FAULT_AT=k: malloc, calloc, realloc, posix_memalign, aligned_alloc and strdup are counted from
+ *   the start of main(); the k-th answers as if memory had run out, those after it do their work
+ *   again. 0 or unset: none.
+ * - FAULT_TRACE=1 prints the calls that led to it on standard error.
+ * - FAULT_COUNT=FILE receives the number of allocations when the program ends.
+ *
+ * Allocations by libraries that end the program when memory runs out (GLib and what draws with it,
+ * libgomp), or that go on with what they did not get (HDF5 1.10), are let through: what happens
+ * there is theirs. Needs glibc. */
+#include <dlfcn.h>
+#include <errno.h>
+#include <execinfo.h>
+#include <fcntl.h>
+#include <link.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+void *__libc_malloc(size_t);
+void *__libc_calloc(size_t, size_t);
+void *__libc_realloc(void *, size_t);
+void *__libc_memalign(size_t, size_t);
+
+static const char *const own_rules[] = {"libhdf5",       "libgomp",      "libglib",  "libgobject",
+                                        "libgio",        "librsvg",      "libcairo", "libpango",
+                                        "libgdk_pixbuf", "libfontconfig"};
+enum { MOST_RANGES = 64 };
+static struct {
+    uintptr_t from, to;
+} let_through[MOST_RANGES];
+static size_t ranges;
+static atomic_bool armed;
+static atomic_ulong count;
+static unsigned long fault_at;
+
+static bool fails(const void *caller)
+{
+    if (!atomic_load_explicit(&armed, memory_order_relaxed))
+        return false;
+    for (size_t k = 0; k < ranges; k++)
+        if ((uintptr_t)caller >= let_through[k].from && (uintptr_t)caller < let_through[k].to)
+            return false;
+    if (atomic_fetch_add(&count, 1) + 1 != fault_at)
+        return false;
+    if (getenv("FAULT_TRACE")) {
+        void *calls[40];
+        atomic_store(&armed, false);
+        backtrace_symbols_fd(calls, backtrace(calls, 40), STDERR_FILENO);
+    }
+    errno = ENOMEM;
+    return true;
+}
+
+void *malloc(size_t size)
+{
+    return fails(__builtin_return_address(0)) ? NULL : __libc_malloc(size);
+}
+
+void *calloc(size_t n, size_t size)
+{
+    return fails(__builtin_return_address(0)) ? NULL : __libc_calloc(n, size);
+}
+
+void *realloc(void *old, size_t size)
+{
+    return fails(__builtin_return_address(0)) ? NULL : __libc_realloc(old, size);
+}
+
+void *aligned_alloc(size_t alignment, size_t size)
+{
+    return fails(__builtin_return_address(0)) ? NULL : __libc_memalign(alignment, size);
+}
+
+int posix_memalign(void **memory, size_t alignment, size_t size)
+{
+    void *made = fails(__builtin_return_address(0)) ? NULL : __libc_memalign(alignment, size);
+    if (!made)
+        return ENOMEM;
+    *memory = made;
+    return 0;
+}
+
+/* Here, so that it is known who asked. */
+char *strdup(const char *text)
+{
+    size_t size = strlen(text) + 1;
+    void *made = fails(__builtin_return_address(0)) ? NULL : __libc_malloc(size);
+    return made ? memcpy(made, text, size) : NULL;
+}
+
+static int note_module(struct dl_phdr_info *info, size_t size, void *data)
+{
+    (void)size;
+    (void)data;
+    bool wanted = false;
+    for (size_t k = 0; k < sizeof own_rules / sizeof *own_rules; k++)
+        wanted = wanted || strstr(info->dlpi_name, own_rules[k]);
+    for (size_t k = 0; wanted && k < info->dlpi_phnum && ranges < MOST_RANGES; k++)
+        if (info->dlpi_phdr[k].p_type == PT_LOAD && (info->dlpi_phdr[k].p_flags & PF_X)) {
+            let_through[ranges].from = info->dlpi_addr + info->dlpi_phdr[k].p_vaddr;
+            let_through[ranges].to = let_through[ranges].from + info->dlpi_phdr[k].p_memsz;
+            ranges++;
+        }
+    return 0;
+}
+
+static void write_count(void)
+{
+    atomic_store(&armed, false);
+    const char *path = getenv("FAULT_COUNT");
+    int file = path ? open(path, O_WRONLY | O_CREAT | O_TRUNC, 0644) : -1;
+    if (file < 0)
+        return;
+    char text[32];
+    int length = snprintf(text, sizeof text, "%lu\n", atomic_load(&count));
+    if (write(file, text, (size_t)length) != length)
+        _exit(99);
+    close(file);
+}
+
+typedef int main_function(int, char **, char **);
+static main_function *real_main;
+
+static int armed_main(int argc, char **argv, char **environment)
+{
+    const char *at = getenv("FAULT_AT");
+    fault_at = at ? strtoul(at, NULL, 10) : 0;
+    dl_iterate_phdr(note_module, NULL);
+    unsetenv("LD_PRELOAD"); /* what the program starts is not under test */
+    atexit(write_count);
+    atomic_store(&armed, true);
+    return real_main(argc, argv, environment);
+}
+
+int __libc_start_main(main_function *main, int argc, char **argv, void (*init)(void),
+                      void (*fini)(void), void (*rtld_fini)(void), void *stack_end)
+{
+    typedef int start_function(main_function *, int, char **, void (*)(void), void (*)(void),
+                               void (*)(void), void *);
+    start_function *start;
+    *(void **)&start = dlsym(RTLD_NEXT, "__libc_start_main");
+    real_main = main;
+    return start(armed_main, argc, argv, init, fini, rtld_fini, stack_end);
+}
