@@ -365,6 +365,7 @@ static void test_init_and_check(void)
     CU_ASSERT_EQUAL(json_integer_value(json_object_get(plan, "evaluations")), 14);
     CU_ASSERT_EQUAL(json_integer_value(json_object_get(plan, "parameters")), 6);
     CU_ASSERT_TRUE(json_real_value(json_object_get(plan, "cw")) > 0);
+    CU_ASSERT_TRUE(json_is_array(json_object_get(plan, "warnings")));
     json_decref(plan);
 }
 

@@ -45,7 +45,8 @@ void settings_print_expected(const struct setting *row, FILE *out)
         print_range(row, out);
     for (int k = 0; row->type != SETTING_SWITCH && (word = settings_word(row, k, &value)) != NULL;
          k++) {
-        const char *before = settings_word(row, k + 1, &value) ? ", " : " or ";
+        bool excluded = row->open_least && row->open_most && isfinite(row->most);
+        const char *before = settings_word(row, k + 1, &value) ? ", " : excluded ? ", or " : " or ";
         fprintf(out, "%s%s", k == 0 && row->type == SETTING_CHOICE ? "" : before, word);
     }
 }

@@ -14,7 +14,18 @@ struct plan {
     struct problem problem;
     galv_shape *shape;
     struct evaluation parent;
+    json_t *warnings;
 };
+
+/* Keeps why the value of the original may be wrong. */
+static bool keep_warnings(void *user_data, igabem_solution *const *solutions)
+{
+    struct plan *p = user_data;
+    const char *warning;
+    for (size_t i = 0; (warning = igabem_solution_warning(solutions[0], NULL, i)) != NULL; i++)
+        json_array_append_new(p->warnings, json_string(warning));
+    return true;
+}
 
 static bool read_plan(const struct options *options, struct plan *p)
 {
@@ -28,7 +39,7 @@ static bool read_plan(const struct options *options, struct plan *p)
     if (!p->shape)
         return false;
     evaluation_start(0, "parent", NULL, &p->parent);
-    evaluate_parent(&p->problem, &p->parent, NULL, NULL);
+    evaluate_parent(&p->problem, &p->parent, keep_warnings, p);
     return !p->parent.failed || cli_refuse("%s: the original cannot be evaluated (%s)",
                                            p->config.hull, p->parent.reason);
 }
@@ -47,14 +58,14 @@ static bool print_json(const struct plan *p)
 {
     const nurbs_hydrostatics *h = nurbs_hull_hydrostatics(p->problem.parent.hull);
     json_t *o = json_pack(
-        "{s:f, s:f, s:f, s:f, s:f, s:f, s:i, s:i, s:i, s:s, s:f, s:i, s:f, s:i, s:f, s:[]}",
+        "{s:f, s:f, s:f, s:f, s:f, s:f, s:i, s:i, s:i, s:s, s:f, s:i, s:f, s:i, s:f, s:O}",
         "length", problem_length(&p->problem), "beam", h->beam, "draft", h->draft, "volume",
         h->volume, "wetted_area", h->wetted_area, "transom_area", h->transom_area, "sections",
         (int)nurbs_grid_rows(p->problem.grid), "girth", (int)nurbs_grid_columns(p->problem.grid),
         "parameters", (int)galv_shape_parameters(p->shape), "formulation",
         igabem_formulation_name(p->problem.solver.formulation), "fr", p->problem.solver.froude,
         "dofs", (int)p->parent.dofs, "cw", p->parent.cw, "evaluations", (int)evaluations(p),
-        "seconds", seconds(p), "warnings");
+        "seconds", seconds(p), "warnings", p->warnings);
     bool ok = o && json_dumpf(o, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(15)) == 0 &&
               putchar('\n') != EOF && fflush(stdout) != EOF;
     json_decref(o);
@@ -106,8 +117,11 @@ static void print_search(const struct plan *p)
 
 int check_command(const struct options *options)
 {
-    struct plan plan = {.shape = NULL};
-    bool ok = read_plan(options, &plan);
+    struct plan plan = {.warnings = json_array()};
+    bool ok = (plan.warnings || cli_refuse("out of memory")) && read_plan(options, &plan);
+    for (size_t i = 0; i < json_array_size(plan.warnings); i++)
+        fprintf(stderr, "%s: warning: %s\n", cli_name(),
+                json_string_value(json_array_get(plan.warnings, i)));
     if (ok && options->json) {
         ok = print_json(&plan);
     } else if (ok) {
@@ -116,6 +130,7 @@ int check_command(const struct options *options)
         print_search(&plan);
         ok = fflush(stdout) != EOF || cli_refuse("standard output cannot be written");
     }
+    json_decref(plan.warnings);
     galv_shape_free(plan.shape);
     problem_free(&plan.problem);
     config_free(&plan.config);

@@ -139,18 +139,21 @@ void report_verification(FILE *out, const struct results *r)
     fputs("</tbody></table></section>\n", out);
 }
 
-static void setting_rows(FILE *out, const char *text)
+/* Lines of the canonical text are in the order of the table; one of an older run may lack rows. */
+static void setting_rows(FILE *out, const char *line)
 {
-    for (const char *line = text; line && *line;) {
-        int length = (int)strcspn(line, "\n");
-        const char *equals = strstr(line, " =");
-        if (equals && equals < line + length) {
-            char value[500];
-            snprintf(value, sizeof value, "%.*s", (int)(line + length - equals - 2), equals + 2);
-            fprintf(out, "<tr><td><code>%.*s</code></td><td>", (int)(equals - line), line);
-            plot_escape(out, value);
-            fputs("</td></tr>\n", out);
-        }
+    for (size_t r = 0; r < CONFIG.n; r++) {
+        const struct setting *row = &CONFIG.rows[r];
+        size_t length = strcspn(line, "\n"), key = row->key ? strlen(row->key) : 0;
+        if (!key || strncmp(line, row->key, key) != 0 || strncmp(line + key, " =", 2) != 0)
+            continue;
+        char *value = strndup(line + key + 2, length - key - 2);
+        fputs("<tr title=\"", out);
+        plot_escape(out, row->sentence);
+        fprintf(out, "\"><td><code>%s</code></td><td>", row->key);
+        plot_escape(out, value ? value : "");
+        fputs("</td></tr>\n", out);
+        free(value);
         line += length + (line[length] == '\n');
     }
 }
