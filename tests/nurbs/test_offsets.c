@@ -32,6 +32,25 @@ static nurbs_hydrostatics hydrostatics_of(const nurbs_grid *grid, const nurbs_of
     return result;
 }
 
+/* The same below z = 0 of one that is open at both ends. */
+static nurbs_hydrostatics hydrostatics_of_prism(const nurbs_grid *grid,
+                                                const nurbs_offsets_info *info)
+{
+    nurbs_skin_options skin;
+    nurbs_surface *surface = NULL, *wetted = NULL;
+    nurbs_hydrostatics result = {0};
+    nurbs_skin_options_init(&skin);
+    skin.chine_count = 1;
+    skin.chine = &info->chine;
+    CU_ASSERT_EQUAL_FATAL(nurbs_skin(grid, &skin, &surface), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_wetted(surface, 0, 1e-5, &wetted), NURBS_OK);
+    CU_ASSERT_EQUAL(nurbs_hydrostatics_compute(1, (const nurbs_surface *[]){wetted}, 0, &result),
+                    NURBS_OK);
+    nurbs_surface_free(surface);
+    nurbs_surface_free(wetted);
+    return result;
+}
+
 static nurbs_grid *read_text(const char *text, size_t columns, nurbs_offsets_info *info)
 {
     nurbs_grid *grid = NULL;
@@ -122,7 +141,7 @@ static void reads_knuckles_decks_and_keels(void)
         CHECK_CLOSE(keel[1], 0, 1e-14);
         CHECK_CLOSE(keel[2], -1 + 0.05 * keel[0], 1e-14);
     }
-    nurbs_hydrostatics h = hydrostatics_of(grid, &info);
+    nurbs_hydrostatics h = hydrostatics_of_prism(grid, &info);
     double volume = 0; /* d^2 / (d + 0.2) over x, d the draft */
     for (int k = 0; k < 2000; k++) {
         double d = 1 - 0.5 * (k + 0.5) / 2000;

@@ -14,6 +14,7 @@
 #include <string.h>
 
 static const double most_lift = 1e-3;    /* of the extent: more is no overshoot of a fit */
+static const double centre_reach = 1e-5; /* of the extent: an edge this near lies in y = 0 */
 static const double simplify_cut = 1e-4; /* of the extent, where nothing else is asked for */
 
 /* The part below the level, in one piece along u, or along v where the lines of constant u do not
@@ -67,27 +68,35 @@ static nurbs_status lift(nurbs_hull *hull, const nurbs_surface *patch, const hul
     return status;
 }
 
-/* A surface that is not cut, with edges that lie within the clearance of the level put there. */
-static nurbs_status settle_edges(const nurbs_surface *patch, double level, double clearance,
+/* Puts a coordinate of edge e there, if all its control points are within the clearance. */
+static void settle_edge(double *points, const size_t n[2], int e, size_t coordinate, double there,
+                        double clearance)
+{
+    size_t fixed = e % 2 ? n[e / 2] - 1 : 0, count = n[!(e / 2)];
+    double away = 0;
+    for (int pass = 0; pass < 2; pass++)
+        for (size_t k = 0; k < count; k++) {
+            double *at = points + 3 * (e < 2 ? fixed * n[1] + k : k * n[1] + fixed) + coordinate;
+            away = fmax(away, fabs(*at - there));
+            if (pass == 1 && away <= clearance)
+                *at = there;
+        }
+}
+
+/* Edges that lie within the clearance of the water and as close to the centre plane as the cut has
+ * to be are put there. */
+static nurbs_status settle_edges(const nurbs_hull *hull, const nurbs_surface *patch, double level,
                                  nurbs_surface **settled)
 {
-    size_t n[2] = {nurbs_surface_size(patch, 0), nurbs_surface_size(patch, 1)};
+    const size_t n[2] = {nurbs_surface_size(patch, 0), nurbs_surface_size(patch, 1)};
     const int degree[2] = {nurbs_surface_degree(patch, 0), nurbs_surface_degree(patch, 1)};
     double *points = malloc(3 * n[0] * n[1] * sizeof *points);
     if (!points)
         return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu points", n[0] * n[1]);
     memcpy(points, nurbs_surface_points(patch), 3 * n[0] * n[1] * sizeof *points);
     for (int e = 0; e < 4; e++) {
-        int along = e < 2;
-        size_t fixed = e % 2 ? n[!along] - 1 : 0;
-        double away = 0;
-        for (int pass = 0; pass < 2; pass++)
-            for (size_t k = 0; k < n[along]; k++) {
-                double *z = points + 3 * (along ? fixed * n[1] + k : k * n[1] + fixed) + 2;
-                away = fmax(away, fabs(*z - level));
-                if (pass == 1 && away <= clearance)
-                    *z = level;
-            }
+        settle_edge(points, n, e, 2, level, HULL_CLEARANCE * hull->extent);
+        settle_edge(points, n, e, 1, 0, fmin(hull->options.cut, centre_reach * hull->extent));
     }
     nurbs_status status = nurbs_surface_create(degree, n, nurbs_surface_knots(patch, 0),
                                                nurbs_surface_knots(patch, 1), points,
@@ -102,7 +111,7 @@ static nurbs_status wet_patch(nurbs_hull *hull, const nurbs_surface *patch, doub
 {
     double clearance = HULL_CLEARANCE * hull->extent;
     hull_box box = hull_box_empty();
-    nurbs_surface *lifted = NULL, *settled = NULL;
+    nurbs_surface *lifted = NULL;
     nurbs_patches *below = NULL;
     *cut = false;
     nurbs_status status = hull_box_widen(patch, &box);
@@ -113,23 +122,22 @@ static nurbs_status wet_patch(nurbs_hull *hull, const nurbs_surface *patch, doub
     if (!status)
         status = lift(hull, patch, &box, &lifted);
     const nurbs_surface *sound = lifted ? lifted : patch;
-    if (!status && *cut)
-        status = cut_patch(sound, level, hull->extent, hull->options.cut, below, &hull->deviation);
-    else if (!status)
-        status = settle_edges(sound, level, clearance, &settled);
-    if (!status && settled)
-        status = nurbs_patches_add(below, settled);
+    if (!status)
+        status =
+            *cut ? cut_patch(sound, level, hull->extent, hull->options.cut, below, &hull->deviation)
+                 : nurbs_patches_add(below, sound);
     const double shift[3] = {0.0, 0.0, -level};
     for (size_t k = 0; !status && k < nurbs_patches_count(below); k++) {
-        nurbs_surface *moved = NULL;
-        if (level != 0.0)
-            status = nurbs_surface_transform(nurbs_patches_get(below, k), NULL, shift, &moved);
+        nurbs_surface *settled = NULL, *moved = NULL;
+        status = settle_edges(hull, nurbs_patches_get(below, k), level, &settled);
+        if (!status && level != 0.0)
+            status = nurbs_surface_transform(settled, NULL, shift, &moved);
         if (!status)
-            status = nurbs_patches_add(wetted, moved ? moved : nurbs_patches_get(below, k));
+            status = nurbs_patches_add(wetted, moved ? moved : settled);
+        nurbs_surface_free(settled);
         nurbs_surface_free(moved);
     }
     nurbs_surface_free(lifted);
-    nurbs_surface_free(settled);
     nurbs_patches_free(below);
     return status;
 }
