@@ -47,7 +47,7 @@ expect 0 "$nurbs" --version
 grep -Eq '^nurbs [0-9]+\.[0-9]+\.[0-9]+$' stdout || fail "--version: $(cat stdout)"
 grep -q 'OpenBLAS.*kernels for [A-Za-z]' stdout || fail "--version tells no kernels: $(cat stdout)"
 for command in make info eval skin fit grid simplify wetted hydrostatics moments closest cut edit \
-    convert plot; do
+    convert plot clean; do
     expect 0 "$nurbs" $command --help
     grep -q "^usage: nurbs $command" stdout || fail "$command --help"
     expect 2 "$nurbs" $command --no-such-option
@@ -197,6 +197,23 @@ expect 1 "$nurbs" hydrostatics off.json
 says "off.json: open at ("
 expect 0 "$nurbs" plot off.json -o off.svg
 says "off.json: open at ("
+
+# Cleaned once for all: millimetres, keel at z = 0, bow at small x, 0.01 m off the centre plane.
+expect 0 "$nurbs" edit wigley.json move:0,0.01,0.125 scale:-1000,1000,1000 -o came.json
+expect 1 "$nurbs" clean came.json cleaned.json --scale 0.001 --draft 0.125
+says "came.json: "
+expect 0 "$nurbs" clean came.json cleaned.json --scale 0.001 --level 0.125 --flip x --snap 0.011 --json
+close volume 0.0222 2e-1
+grep -q '"done": "lengths times 0.001; reversed x; 3 edges put into the centre plane' stdout || fail "done: $(cat stdout)"
+expect 0 "$nurbs" hydrostatics cleaned.json --json
+close draft 0.125 1e-9
+[ ! -s stderr ] || fail "a cleaned hull needs cleaning"
+expect 0 "$nurbs" clean four.json port.json --keep 0,1,2,3
+expect 0 "$nurbs" clean wigley.json ship.json --both
+expect 0 "$nurbs" moments ship.json --json
+close volume 0.022222222222222222 1e-12
+expect 2 "$nurbs" clean wigley.json ship.json --drop 1
+expect 2 "$nurbs" clean wigley.json ship.json --flip w
 
 # Patches: shared edges, orientation, exact changes; all of them leave the volume alone.
 expect 0 "$nurbs" edit wigley.json split:u:0.4 -o halves.json

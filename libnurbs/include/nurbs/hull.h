@@ -100,6 +100,18 @@ NURBS_API nurbs_status nurbs_hull_share_space(nurbs_hull *parent, const nurbs_gr
 /** Whether a rebuilt hull lies in the shared space. */
 NURBS_API bool nurbs_hull_shares_space(const nurbs_hull *hull);
 
+/** Reads the patches of a hull's file, faces that loops cut out of B-spline surfaces resampled.
+ * @param tolerance  of that, m; NAN: 1e-5 of the extent in x
+ * @param report     as in nurbs_patches_read_reported() */
+NURBS_API nurbs_status nurbs_hull_read_patches(const char *path, double tolerance,
+                                               nurbs_patches **patches, char *report,
+                                               size_t report_size);
+
+/** Creates the patches with all edges put into y = 0 whose control points lie within `tolerance`
+ * metres of it. edges, moved: fill how many, and by how much at most; NULL allowed. */
+NURBS_API nurbs_status nurbs_patches_snap(const nurbs_patches *patches, double tolerance,
+                                          nurbs_patches **result, size_t *edges, double *moved);
+
 /** Surfaces, borrowed. Full: as they were read and placed, above and below the water. Wetted: the
  * part below. Light: the same with redundant knots removed, what a solver takes. Of a rebuilt hull
  * the full surface is the skinned one. */

@@ -198,28 +198,33 @@ static nurbs_status start(const nurbs_hull_options *options, nurbs_hull **hull)
     return NURBS_OK;
 }
 
-/* Reads the file. Surfaces that a loop cuts come whole at first, which tells how large the hull is
- * and so how closely they have to be resampled inside their loops. */
+/* Surfaces that a loop cuts come whole at first, which tells how large the hull is and so how
+ * closely they have to be resampled inside their loops. */
+nurbs_status nurbs_hull_read_patches(const char *path, double tolerance, nurbs_patches **patches,
+                                     char *report, size_t report_size)
+{
+    hull_box box;
+    if (!path || !patches || !report || report_size == 0)
+        return nurbs_fail(NURBS_ERROR_ARGUMENT, "path, patches or report is NULL");
+    nurbs_status status = nurbs_patches_read_reported(path, 0.0, patches, report, report_size);
+    if (status || !strstr(report, "the whole surface is kept"))
+        return status;
+    if (isnan(tolerance)) {
+        status = hull_box_of(*patches, &box);
+        tolerance = default_cut * (box.upper[0] - box.lower[0]);
+    }
+    nurbs_patches_free(*patches);
+    *patches = NULL;
+    return status ? status
+                  : nurbs_patches_read_reported(path, tolerance, patches, report, report_size);
+}
+
 static nurbs_status read_file(const char *path, nurbs_hull *hull)
 {
     char report[REPORT_SIZE];
-    hull_box box;
-    double tolerance = hull->options.cut;
     nurbs_status status =
-        nurbs_patches_read_reported(path, 0.0, &hull->full, report, sizeof report);
-    if (!status && strstr(report, "the whole surface is kept")) {
-        status = hull_box_of(hull->full, &box);
-        nurbs_patches_free(hull->full);
-        hull->full = NULL;
-        if (isnan(tolerance))
-            tolerance = default_cut * (box.upper[0] - box.lower[0]);
-        if (!status)
-            status =
-                nurbs_patches_read_reported(path, tolerance, &hull->full, report, sizeof report);
-    }
-    if (!status && *report)
-        status = hull_tell(hull, "%s", report);
-    return status;
+        nurbs_hull_read_patches(path, hull->options.cut, &hull->full, report, sizeof report);
+    return !status && *report ? hull_tell(hull, "%s", report) : status;
 }
 
 nurbs_status nurbs_hull_read(const char *path, const nurbs_hull_options *options, nurbs_hull **hull)
