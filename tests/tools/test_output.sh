@@ -96,6 +96,8 @@ walk bayesopt export study.db
 walk bayesopt design lhs 4 2
 walk hullopt report run
 walk hullopt report run --json
+walk hullopt check run.yaml
+walk hullopt check run.yaml --json
 walk hullopt run run.yaml --out run --resume
 
 # Texts of every subcommand that --help names, and of those above which print nothing.

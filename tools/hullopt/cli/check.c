@@ -1,6 +1,7 @@
 #include "cli.h"
 #include "cli/commands.h"
 #include "core/constraints.h"
+#include "json_result.h"
 #include "shape_yaml.h"
 
 #include <jansson.h>
@@ -66,10 +67,7 @@ static bool print_json(const struct plan *p)
         igabem_formulation_name(p->problem.solver.formulation), "fr", p->problem.solver.froude,
         "dofs", (int)p->parent.dofs, "cw", p->parent.cw, "evaluations", (int)evaluations(p),
         "seconds", seconds(p), "warnings", p->warnings);
-    bool ok = o && json_dumpf(o, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(15)) == 0 &&
-              putchar('\n') != EOF && fflush(stdout) != EOF;
-    json_decref(o);
-    return ok || cli_refuse("standard output cannot be written");
+    return json_result_print(o, JSON_INDENT(2) | JSON_REAL_PRECISION(15)) == CLI_OK;
 }
 
 static void print_hull(const struct plan *p)
@@ -128,7 +126,7 @@ int check_command(const struct options *options)
         print_hull(&plan);
         print_solver(&plan);
         print_search(&plan);
-        ok = fflush(stdout) != EOF || cli_refuse("standard output cannot be written");
+        ok = cli_printed() == CLI_OK;
     }
     json_decref(plan.warnings);
     galv_shape_free(plan.shape);

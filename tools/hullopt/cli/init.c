@@ -20,14 +20,14 @@ static bool write_template(const struct config *config, const char *path)
     struct cli_file file;
     if (!path) {
         settings_template(&CONFIG, config, stdout);
-        return fflush(stdout) != EOF || cli_refuse("standard output: %s", strerror(errno));
+        return cli_printed() == CLI_OK;
     }
     if (access(path, F_OK) == 0)
         return cli_refuse("%s exists; remove it or choose another name", path);
     if (!cli_file_open(&file, path))
-        return cli_refuse("%s: %s", path, strerror(errno));
+        return cli_refuse("%s: cannot be written: %s", path, strerror(errno));
     settings_template(&CONFIG, config, file.stream);
-    return cli_file_commit(&file) || cli_refuse("%s: %s", path, strerror(errno));
+    return cli_file_commit(&file) || cli_refuse("%s: cannot be written: %s", path, strerror(errno));
 }
 
 int init_command(const struct options *options)
