@@ -55,7 +55,7 @@ static void complain_syntax(struct settings_source *source, const yaml_parser_t 
     else if (parser->error == YAML_READER_ERROR)
         settings_add(source, 0, "", "holds bytes that are not UTF-8 text, from byte %zu on",
                      parser->problem_offset);
-    else if (parser->error == YAML_MEMORY_ERROR)
+    else if (parser->error == YAML_MEMORY_ERROR || !parser->problem)
         settings_add(source, 0, "", "out of memory");
     else
         settings_add(source, parser->problem_mark.line + 1, "", "has %s (column %zu)", said,

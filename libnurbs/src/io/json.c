@@ -309,7 +309,8 @@ nurbs_status nurbs_patches_write_json(const nurbs_patches *patches, const char *
         return nurbs_fail(NURBS_ERROR_ARGUMENT, "%s: no patches to write", path);
     char *note = quoted(nurbs_patches_note(patches));
     if (!note)
-        return nurbs_fail(NURBS_ERROR_ARGUMENT, "%s: the note is not UTF-8 text", path);
+        return nurbs_fail(NURBS_ERROR_ARGUMENT,
+                          "%s: the note is not UTF-8 text, or there is no memory for it", path);
     outfile file;
     nurbs_status status = outfile_open(&file, path);
     if (status == NURBS_OK) {
