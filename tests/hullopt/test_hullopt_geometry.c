@@ -135,6 +135,7 @@ static void test_restored(void)
     grid[0] = 20;
     CU_ASSERT_FALSE(problem_restore(&again, model, grid, 1, &back));
     CU_ASSERT_PTR_NOT_NULL(strstr(core_sentence(), "20 x 9"));
+    config_free(&again);
     CU_ASSERT_FALSE(config_restore("colour = red\n", &again));
 }
 

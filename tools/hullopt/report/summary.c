@@ -187,6 +187,8 @@ static void put_latent(json_t *o, const galv_model *model)
     put_count(o, "parameters", galv_model_parameters(model));
     put_count(o, "latent_samples", galv_model_samples(model));
     put(o, "retained_variance", galv_model_retained(model));
+    put(o, "retained_variance_fresh", galv_model_confidence(model).retained_fresh);
+    put(o, "retained_variance_error", galv_model_confidence(model).retained_error);
     put(o, "trace", galv_model_trace(model));
     json_result_set(o, "eigenvalues",
                     array(galv_model_spectrum(model), galv_model_eigenvalues(model)));
