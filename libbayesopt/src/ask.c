@@ -188,6 +188,8 @@ static bayesopt_status give(struct bayesopt *bo, size_t i, size_t n, double *x, 
     if (p) {
         p->session = bo->session;
         status = store_update(bo, p);
+        if (!status)
+            status = store_touch(bo, p);
     } else {
         status = new_point(bo, &p);
         if (!status)
@@ -230,7 +232,7 @@ bayesopt_status bayesopt_ask_levels(bayesopt *bo, size_t n, double *x, uint64_t 
     if (status)
         return status;
     size_t before = bo->n_points, given = 0;
-    status = store_release_orphans(bo, false);
+    status = store_release_orphans(bo, false, 0);
     double *kept = malloc(surrogates_state_size(&bo->surrogates, bo->d) * sizeof *kept);
     if (!kept && !status)
         status = bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");

@@ -19,7 +19,9 @@ bayesopt_status store_put_budget(struct bayesopt *bo);
 bayesopt_status store_put_design(struct bayesopt *bo);
 /* Marks pending points of dead sessions as to be asked again (session 0). reclaim: detached ones
  * too. */
-bayesopt_status store_release_orphans(struct bayesopt *bo, bool reclaim);
+bayesopt_status store_release_orphans(struct bayesopt *bo, bool reclaim, double age);
+/* Notes that a point is asked now. */
+bayesopt_status store_touch(struct bayesopt *bo, const struct point *point);
 bayesopt_status store_detach(struct bayesopt *bo);
 void store_close(struct bayesopt *bo);
 

@@ -188,7 +188,7 @@ bayesopt_status bayesopt_open_store(bayesopt *bo, const char *path)
     if (!status)
         status = store_refresh(bo);
     if (!status)
-        status = store_release_orphans(bo, false);
+        status = store_release_orphans(bo, false, 0);
     if (!status)
         status = store_commit(bo);
     if (status) {

@@ -104,7 +104,37 @@ static bayesopt_status session_alive(struct bayesopt *bo, int64_t session, bool 
     return status;
 }
 
-bayesopt_status store_release_orphans(struct bayesopt *bo, bool reclaim)
+/* Whether a point was last asked so many seconds ago. */
+static bayesopt_status is_stale(struct bayesopt *bo, uint64_t id, double age, bool *stale)
+{
+    sqlite3_stmt *s;
+    bayesopt_status status = store_prepare(
+        bo->store, "SELECT strftime('%s', 'now') - asked FROM bayesopt_points WHERE id = ?1", &s);
+    if (status)
+        return status;
+    sqlite3_bind_int64(s, 1, (int64_t)id);
+    *stale = sqlite3_step(s) != SQLITE_ROW || sqlite3_column_double(s, 0) >= age;
+    sqlite3_finalize(s);
+    return status;
+}
+
+bayesopt_status store_touch(struct bayesopt *bo, const struct point *point)
+{
+    sqlite3_stmt *s;
+    if (!bo->store)
+        return BAYESOPT_OK;
+    bayesopt_status status = store_prepare(
+        bo->store, "UPDATE bayesopt_points SET asked = strftime('%s', 'now') WHERE id = ?1", &s);
+    if (status)
+        return status;
+    sqlite3_bind_int64(s, 1, (int64_t)point->id);
+    if (sqlite3_step(s) != SQLITE_DONE)
+        status = store_error(bo->store, "writing the store");
+    sqlite3_finalize(s);
+    return status;
+}
+
+bayesopt_status store_release_orphans(struct bayesopt *bo, bool reclaim, double age)
 {
     bayesopt_status status = BAYESOPT_OK;
     int64_t judged = 0;
@@ -117,7 +147,10 @@ bayesopt_status store_release_orphans(struct bayesopt *bo, bool reclaim)
         if (p->session != judged)
             status = session_alive(bo, p->session, &alive);
         judged = p->session;
-        if (status || alive)
+        bool stale = true;
+        if (!status && !alive && age > 0)
+            status = is_stale(bo, p->id, age, &stale);
+        if (status || alive || !stale)
             continue;
         p->session = 0;
         p->detached = false;
@@ -128,13 +161,21 @@ bayesopt_status store_release_orphans(struct bayesopt *bo, bool reclaim)
 
 bayesopt_status bayesopt_reclaim(bayesopt *bo)
 {
+    return bayesopt_reclaim_stale(bo, 0);
+}
+
+bayesopt_status bayesopt_reclaim_stale(bayesopt *bo, double seconds)
+{
     NEED(bo);
+    if (!(seconds >= 0))
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
+                             "stale after %g seconds, expected not negative", seconds);
     bayesopt_status status = store_begin(bo);
     if (status)
         return status;
     if (!bo->store)
         return BAYESOPT_OK;
-    status = store_release_orphans(bo, true);
+    status = store_release_orphans(bo, true, seconds);
     if (!status)
         status = store_commit(bo);
     if (status)

@@ -273,6 +273,15 @@ if [ -c /dev/full ]; then
     expect 0 "$tool" ask full.db
     grep -q '^2,' out || fail "a point that nobody read is not the next: $(cat out)"
 fi
+expect 0 "$tool" ask jobs.db --lower 0 --upper 1 -n 2
+expect 0 "$tool" ask jobs.db --reissue --stale 3600
+grep -q '^3,' out || fail "a point asked just now was given out again: $(cat out)"
+sleep 2
+expect 0 "$tool" ask jobs.db --reissue --stale 2
+grep -q '^1,' out || fail "a stale point was not given out: $(cat out)"
+expect 0 "$tool" ask jobs.db --reissue --stale 2
+grep -q '^2,' out || fail "a point was given out twice: $(cat out)"
+expect 2 "$tool" ask jobs.db --stale 2
 expect 2 "$tool" tell hand.db
 expect 1 "$tool" ask none.db
 expect 1 "$tool" best table.csv

@@ -77,6 +77,9 @@ static void asking_and_telling(void)
     REFUSED(bayesopt_open_store(bo, NULL));
     REFUSED(bayesopt_detach(NULL));
     REFUSED(bayesopt_reclaim(NULL));
+    REFUSED(bayesopt_reclaim_stale(NULL, 0));
+    REFUSED(bayesopt_reclaim_stale(bo, -1));
+    REFUSED(bayesopt_reclaim_stale(bo, NAN));
     REFUSED(bayesopt_ask(NULL, 1, x, &id));
     REFUSED(bayesopt_ask(bo, 1, NULL, &id));
     REFUSED(bayesopt_ask(bo, 1, x, NULL));

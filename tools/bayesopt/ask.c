@@ -3,6 +3,7 @@
 #include "config.h"
 #include "json_result.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,6 +15,7 @@ struct arguments {
     uint64_t seed;
     bool seed_given, initial_given, budget_given;
     double *lower, *upper;
+    double stale;
     bool reissue, json;
 };
 
@@ -22,6 +24,8 @@ static const struct setting ROWS[] = {
     OPTION("points", COUNT, n, .letter = 'n', .least = 1, .most = 10000, .otherwise = "1",
            .sentence = "how many"),
     OPTION("reissue", SWITCH, reissue, .sentence = "first those asked before and never told"),
+    OPTION("stale", NUMBER, stale, .most = INFINITY, .otherwise = "0",
+           .sentence = "with --reissue: only those that were last asked so many seconds ago"),
     OPTION("config", FILE, config,
            .sentence = "create the store from this file's variables, constraints and search"),
     OPTION("lower", NUMBERS, lower, .count = offsetof(struct arguments, n_lower),
@@ -40,6 +44,8 @@ static const struct setting ROWS[] = {
 static void check(struct settings_source *source, void *target)
 {
     const struct arguments *a = target;
+    if (a->stale > 0 && !a->reissue)
+        settings_complain(source, "stale", "is %g without --reissue", a->stale);
     if (a->n_lower != a->n_upper)
         settings_complain(source, "upper", "has %zu numbers and --lower %zu, expected as many",
                           a->n_upper, a->n_lower);
@@ -171,7 +177,7 @@ static bool ask(const struct arguments *a, bayesopt *bo, const struct names *nam
                        calloc(a->n, sizeof *p.levels)};
     int *all_levels = p.levels;
     bool ok = (p.x && p.ids && p.levels) || cli_refuse("out of memory");
-    bayesopt_status status = ok && a->reissue ? bayesopt_reclaim(bo) : BAYESOPT_OK;
+    bayesopt_status status = ok && a->reissue ? bayesopt_reclaim_stale(bo, a->stale) : BAYESOPT_OK;
     if (ok && !status && !a->json) { /* an output that takes nothing costs no point */
         print_header(names, levels);
         ok = written();

@@ -185,6 +185,10 @@ BAYESOPT_API bayesopt_status bayesopt_detach(bayesopt *bo);
 /** Makes every pending point whose session is over, detached or not, to be asked again. */
 BAYESOPT_API bayesopt_status bayesopt_reclaim(bayesopt *bo);
 
+/** The same for those that were last asked @p seconds ago or longer, by the clock of the machine: who
+ * has asked later may still be at work. Not negative; 0: all. */
+BAYESOPT_API bayesopt_status bayesopt_reclaim_stale(bayesopt *bo, double seconds);
+
 /**
  * The next points to evaluate: first those left over by a dead session, then new ones.
  * @param n    how many
