@@ -442,6 +442,18 @@ static void test_bounds(void)
     double h[1][2];
     CU_ASSERT_EQUAL(igabem_kochin(solution, 1, far, h, NULL), IGABEM_ERROR_ARGUMENT);
     CU_ASSERT_PTR_NOT_NULL(strstr(igabem_last_error(), "wave angle 1e+300"));
+    const double places[3] = {-1e6, -1e300, 1.0};
+    double zeta, cw;
+    for (int k = 0; k < 2; k++) {
+        CU_ASSERT_EQUAL(igabem_wave_elevation(solution, 1, &places[k], &places[2], &zeta),
+                        IGABEM_ERROR_ARGUMENT);
+        CU_ASSERT_EQUAL(igabem_wave_elevation(solution, 1, &places[2], &places[k], &zeta),
+                        IGABEM_ERROR_ARGUMENT);
+        CU_ASSERT_EQUAL(igabem_wave_cut(solution, -places[k], &cw), IGABEM_ERROR_ARGUMENT);
+        const double ahead = -places[k];
+        CU_ASSERT_EQUAL(igabem_wave_elevation(solution, 1, &ahead, &places[2], &zeta),
+                        IGABEM_ERROR_ARGUMENT);
+    }
     igabem_solution_free(solution);
     igabem_hull_free(hull);
 }

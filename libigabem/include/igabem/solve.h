@@ -176,7 +176,8 @@ IGABEM_API igabem_status igabem_solve_hull(const nurbs_hull *hull, const igabem_
 IGABEM_API const igabem_options *igabem_solution_options(const igabem_solution *solution);
 
 /** Free-surface elevation at n points (x, y), m: zeta = (U/g) phi_x at z = 0, filtered like the
- * solution. Fills zeta[n]; NAN inside the waterplane. */
+ * solution. Fills zeta[n]; NAN inside the waterplane. Points further from the bow than 3e4/k0 are
+ * refused. */
 IGABEM_API igabem_status igabem_wave_elevation(const igabem_solution *solution, size_t n,
                                                const double *x, const double *y, double *zeta);
 

@@ -5,6 +5,7 @@
 #include "result/elevation_march.h"
 #include "result/elevation_tree.h"
 #include "result/radiation.h"
+#include "solve/resolution.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -288,17 +289,21 @@ igabem_status igabem_wave_elevation(const igabem_solution *solution, size_t n, c
     struct line *lines = malloc(n * sizeof *lines);
     if (!lines)
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu points", n);
-    double length, beam, aftmost = INFINITY, side = 0.0;
+    double length, beam, aftmost = INFINITY, foremost = -INFINITY, side = 0.0;
     radiation_extent(solution, &length, &beam);
     for (size_t i = 0; i < n; i++) {
         lines[i] = (struct line){x[i], i};
         aftmost = fmin(aftmost, x[i]);
+        foremost = fmax(foremost, x[i]);
         side = fmax(side, fabs(y[i]));
     }
     qsort(lines, n, sizeof *lines, from_bow);
     double reach[2] = {fmax(length, solution->x_fore - aftmost), side + 0.5 * beam};
     struct field field;
-    status = field_create(solution, reach, &field);
+    double farthest = fmax(fmax(reach[0], reach[1]), foremost - solution->x_fore);
+    status = resolution_check_distance(solution->k0, farthest);
+    if (!status)
+        status = field_create(solution, reach, &field);
     if (!status) {
         status = march(&field, n, lines, y, zeta);
         field_free(&field);

@@ -24,6 +24,7 @@ enum {
     TAIL_TERMS = 3,
     TAIL_POINTS = 400
 };
+static const double most_phase = 1e4;  /* along the cut, radians: minutes of elevations */
 static const double panel_phase = 8.0; /* radians of the shortest wave in a panel */
 static const double upstream = 3.0;    /* lengths that the cut begins ahead of the bow */
 static const double tail_share = 0.6;  /* of the cut, at its end, that the tail is fitted to */
@@ -240,6 +241,12 @@ igabem_status igabem_wave_cut(const igabem_solution *solution, double y, double 
     cut.first = -(0.5 + upstream) * length;
     cut.end = 0.5 * length + fmax((y + 0.5 * beam) * (1.0 + 2.0 * limit * limit) / limit + length,
                                   10.0 * 2.0 * PI / k0);
+    double phase = k0 * sqrt(1.0 + limit * limit) * (cut.end - cut.first);
+    if (phase > most_phase)
+        return igabem_fail(IGABEM_ERROR_ARGUMENT,
+                           "wave cut at y = %g m: the last diverging waves leave it %.3g m behind "
+                           "the hull, too far to be followed, expected y of about %.3g m at most",
+                           y, cut.end, y * most_phase / phase);
     status = place_points(&cut, k0 * sqrt(1.0 + limit * limit));
     if (!status)
         status = elevate(solution, &cut, cut.n, cut.xi, cut.zeta);

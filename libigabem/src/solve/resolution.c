@@ -66,3 +66,13 @@ igabem_status resolution_check(const igabem_hull *hull, const igabem_options *op
             "largest wave angle, by the cut-off,");
     return status;
 }
+
+igabem_status resolution_check_distance(double k0, double distance)
+{
+    if (k0 * distance <= most_phase)
+        return IGABEM_OK;
+    return igabem_fail(IGABEM_ERROR_ARGUMENT,
+                       "waves %.3g m from the bow or its centre plane are too far to be followed, "
+                       "expected at most %.3g m",
+                       distance, most_phase / k0);
+}

@@ -14,4 +14,7 @@ igabem_status resolution_check(const igabem_hull *hull, const igabem_options *op
 igabem_status resolution_check_angle(double k0, double length, double beam, double t,
                                      const char *what);
 
+/* Refuses waves of that k0 followed so far from the bow, m. */
+igabem_status resolution_check_distance(double k0, double distance);
+
 #endif
