@@ -39,9 +39,10 @@ static bool project(const struct model_file *file, double *d, double *u, double 
     galv_moment_set set;
     galv_extra extra = model_file_extra(file, &set);
     double *back = malloc(length * sizeof *back), square = 0;
-    bool ok =
-        back && (extra.count == 0 ||
-                 !galv_extra_change(&extra, points, galv_model_parent(model), d, d + 3 * points));
+    if (!back)
+        return cli_refuse("out of memory");
+    bool ok = extra.count == 0 ||
+              !galv_extra_change(&extra, points, galv_model_parent(model), d, d + 3 * points);
     ok = ok && !galv_project(model, d, u) && !galv_reconstruct(model, u, back) &&
          !galv_latent_distance(model, u, &figures[1], &figures[2]);
     for (size_t i = 0; ok && i < 3 * points; i++)

@@ -5,10 +5,10 @@
 
 igabem_status hull_nurbs_fail(nurbs_status status, const char *what)
 {
-    igabem_status code = IGABEM_ERROR_GEOMETRY;
+    /* It need not be libnurbs itself that found no memory. */
     if (status == NURBS_ERROR_MEMORY)
-        code = IGABEM_ERROR_MEMORY;
-    return igabem_fail(code, "%s: %s", what, nurbs_last_error());
+        return igabem_fail(IGABEM_ERROR_MEMORY, "%s: no memory", what);
+    return igabem_fail(IGABEM_ERROR_GEOMETRY, "%s: %s", what, nurbs_last_error());
 }
 
 bool hull_same_side(const struct hull_patch *a, const struct hull_patch *b)
