@@ -78,7 +78,7 @@ static igabem_status place_points(struct cut *cut, double shortest)
 static igabem_status elevate(const igabem_solution *solution, const struct cut *cut, size_t n,
                              const double *xi, double *zeta)
 {
-    double *x = malloc(2 * n * sizeof *x);
+    double *x = calloc(2 * n, sizeof *x);
     if (!x)
         return no_memory(n);
     for (size_t i = 0; i < n; i++) {
