@@ -144,7 +144,7 @@ static nurbs_status clean(nurbs_hull *hull)
 static nurbs_status make(nurbs_hull *hull)
 {
     hull_box box;
-    bool bow_aft;
+    bool bow_aft = false;
     size_t n = nurbs_patches_count(hull->full);
     if (n == 0)
         return nurbs_fail(NURBS_ERROR_GEOMETRY, "holds no patches, expected at least one");
