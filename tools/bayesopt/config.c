@@ -267,9 +267,12 @@ static void check_objective(struct settings_source *source, struct config *c)
             settings_complain(source, "objective.transient.status", "is %g, expected whole numbers",
                               c->transient_status[i]);
     char message[200];
+    if (c->compiled) /* by an earlier check: options replace what a file says */
+        regfree(&c->pattern);
     int code = c->transient_pattern ? regcomp(&c->pattern, c->transient_pattern,
                                               REG_EXTENDED | REG_NOSUB | REG_NEWLINE)
                                     : 0;
+    c->compiled = c->transient_pattern && !code;
     if (code) {
         regerror(code, &c->pattern, message, sizeof message);
         settings_complain(source, "objective.transient.pattern",
@@ -320,7 +323,7 @@ void config_free(struct config *c)
 {
     for (size_t i = 1; i < c->n_templates; i++)
         free(c->templates[i]);
-    if (c->transient_pattern)
+    if (c->compiled)
         regfree(&c->pattern);
     settings_free(&CONFIG, c);
     free(c->names.variables);

@@ -39,6 +39,7 @@ struct config {
     double *transient_status;
     size_t n_transient_status;
     char *transient_pattern;
+    bool compiled;   /* pattern */
     regex_t pattern; /* of transient_pattern, when that is given */
     bool transient_timeout;
     size_t retries, workers;
