@@ -8,13 +8,15 @@
 
 #include <lapacke.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 static igabem_status from_nurbs(nurbs_status status, size_t patch)
 {
-    igabem_status code = status == NURBS_ERROR_MEMORY ? IGABEM_ERROR_MEMORY : IGABEM_ERROR_GEOMETRY;
-    return igabem_fail(code, "patch %zu: %s", patch, nurbs_last_error());
+    char what[32];
+    snprintf(what, sizeof what, "patch %zu", patch);
+    return hull_nurbs_fail(status, what);
 }
 
 /* Replaces *surface by the result of a change of representation. */
