@@ -237,6 +237,8 @@ static igabem_status all_rows(const struct influence *influence, const struct li
         free(work.far);
         free(work.batch);
     }
+    if (result == IGABEM_ERROR_MEMORY)
+        return igabem_fail(result, "no memory for the local part of the Green function");
     return result == IGABEM_OK ? result
                                : igabem_fail(result, "the local part of the Green function failed");
 }
