@@ -62,7 +62,7 @@ expect 0 "$tool" run file.yaml
 study nofile "echo 'Cw = 8'" "file: result.dat"
 expect 1 "$tool" run nofile.yaml
 says 'result.dat: No such file'
-for place in /tmp/result.dat ../result.dat; do
+for place in /result.dat ../result.dat; do
     study place "echo 'Cw = 8'" "file: $place"
     expect 1 "$tool" run place.yaml
     says 'expected a name within the working folder'

@@ -82,9 +82,9 @@ static nurbs_status leave_out(nurbs_hull *hull, const bool *drop, const char *wh
     return hull_tell(hull, "%s: %s, no hull: left out", list, why);
 }
 
-/* Marks patches by a rule. */
-typedef nurbs_status rule(const nurbs_hull *hull, const nurbs_surface *patch, const hull_box *all,
-                          bool *drop);
+/* Marks patches by a rule: box is that of the patch, all that of every patch. */
+typedef nurbs_status rule(const nurbs_hull *hull, const nurbs_surface *patch, const hull_box *box,
+                          const hull_box *all, bool *drop);
 
 static nurbs_status apply(nurbs_hull *hull, rule *applies, const char *why)
 {
@@ -93,8 +93,13 @@ static nurbs_status apply(nurbs_hull *hull, rule *applies, const char *why)
     bool *drop = calloc(n, sizeof *drop);
     nurbs_status status = drop ? hull_box_of(hull->full, &all)
                                : nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu patches", n);
-    for (size_t k = 0; k < n && !status; k++)
-        status = applies(hull, nurbs_patches_get(hull->full, k), &all, &drop[k]);
+    for (size_t k = 0; k < n && !status; k++) {
+        const nurbs_surface *patch = nurbs_patches_get(hull->full, k);
+        hull_box box = hull_box_empty();
+        status = hull_box_widen(patch, &box);
+        if (!status)
+            status = applies(hull, patch, &box, &all, &drop[k]);
+    }
     if (!status)
         status = leave_out(hull, drop, why);
     free(drop);
@@ -102,43 +107,38 @@ static nurbs_status apply(nurbs_hull *hull, rule *applies, const char *why)
 }
 
 static nurbs_status in_centre_plane(const nurbs_hull *hull, const nurbs_surface *patch,
-                                    const hull_box *all, bool *drop)
+                                    const hull_box *box, const hull_box *all, bool *drop)
 {
-    hull_box box = hull_box_empty();
-    nurbs_status status = hull_box_widen(patch, &box);
     double clearance = HULL_CLEARANCE * hull->extent;
+    (void)patch;
     (void)all;
-    *drop = box.lower[1] >= -clearance && box.upper[1] <= clearance;
-    return status;
+    *drop = box->lower[1] >= -clearance && box->upper[1] <= clearance;
+    return NURBS_OK;
 }
 
 static nurbs_status level_deck(const nurbs_hull *hull, const nurbs_surface *patch,
-                               const hull_box *all, bool *drop)
+                               const hull_box *box, const hull_box *all, bool *drop)
 {
-    hull_box box = hull_box_empty();
-    nurbs_status status = hull_box_widen(patch, &box);
     double clearance = HULL_CLEARANCE * hull->extent;
+    (void)patch;
     (void)all;
-    *drop = box.upper[2] - box.lower[2] <= clearance && box.lower[2] >= hull->level - clearance;
-    return status;
+    *drop = box->upper[2] - box->lower[2] <= clearance && box->lower[2] >= hull->level - clearance;
+    return NURBS_OK;
 }
 
-static nurbs_status transom(const nurbs_hull *hull, const nurbs_surface *patch, const hull_box *all,
-                            bool *drop)
+static nurbs_status transom(const nurbs_hull *hull, const nurbs_surface *patch, const hull_box *box,
+                            const hull_box *all, bool *drop)
 {
     patch_sums sums;
-    hull_box box = hull_box_empty();
     nurbs_status status = patch_integrate(patch, hull->level, ORDER, &sums);
     const double *s = sums.normal;
     *drop = false;
-    if (!status)
-        status = hull_box_widen(patch, &box);
     if (status || nurbs_patches_count(hull->full) == 1)
         return status;
     double size = sqrt(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]);
     *drop = size > flat * sums.area && fabs(s[0]) > facing * size &&
-            box.upper[0] < all->lower[0] + stern_reach * hull->extent &&
-            box.upper[2] >= hull->level - HULL_CLEARANCE * hull->extent;
+            box->upper[0] < all->lower[0] + stern_reach * hull->extent &&
+            box->upper[2] >= hull->level - HULL_CLEARANCE * hull->extent;
     return NURBS_OK;
 }
 
