@@ -9,6 +9,8 @@ struct options {
     double froude;            /* NAN: not given */
     struct config_overrides overrides;
     bool resume;
+    char *address; /* of a server, and its port */
+    int port, jobs;
     bool json;    /* the result on standard output instead of the figures */
     double start; /* of the command, cli_seconds() */
 };
@@ -22,5 +24,7 @@ int report_command(const struct options *options);
 int init_command(const struct options *options);
 /* Reads all that a run reads, evaluates the parent, tells what would be done. */
 int check_command(const struct options *options);
+/* Offers the problem as a model of UM-Bridge until it is told to stop. */
+int serve_command(const struct options *options);
 
 #endif

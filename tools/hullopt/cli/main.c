@@ -12,6 +12,7 @@ static const char HELP[] =
     "       hullopt check CONFIG.yaml [options]\n"
     "       hullopt run CONFIG.yaml --out DIR [--resume] [options]\n"
     "       hullopt report DIR [options]\n"
+    "       hullopt serve CONFIG.yaml [options]\n"
     "\n"
     "init    writes a configuration with every key, its meaning and its default.\n"
     "check   reads all that CONFIG.yaml names, evaluates the original hull once and tells what a\n"
@@ -24,7 +25,9 @@ static const char HELP[] =
     "        and report.html.\n"
     "report  writes all files of DIR but run.db again, also of a run that is not finished; into\n"
     "        another folder by --out. Of one that may not be written it prints the figures "
-    "alone.\n";
+    "alone.\n"
+    "serve   offers the problem of CONFIG.yaml as a model of UM-Bridge: latent variables in; C_w,\n"
+    "        constraints (<= 0 where kept) and particulars out. Stops on SIGINT and SIGTERM.\n";
 
 #define ROW(kind, member, meaning, ...)                                                            \
     SETTING_ROW(struct options, NULL, kind, member, meaning, __VA_ARGS__)
@@ -69,6 +72,19 @@ static const struct setting REPORT[] = {
     ROW(TEXT, out, "folder for the files; by default that of the run", .option = "out"),
     JSON,
 };
+static const struct setting_word OF_PORT[] = {{"of $PORT, or 4242", -1}, {NULL, 0}};
+static const struct setting SERVE[] = {
+    HEADING("serve"),
+    ROW(TEXT, path, "the configuration", .option = "CONFIG.yaml", .required = true),
+    ROW(TEXT, address,
+        "IPv4 address to listen at; 0.0.0.0: every one of this machine, for "
+        "whoever can reach it",
+        .option = "address", .otherwise = "127.0.0.1"),
+    ROW(INTEGER, port, "port to listen at; 0: any free one, which is printed", .option = "port",
+        SETTING_FROM(0, 65535), .words = OF_PORT, .otherwise = "of $PORT, or 4242"),
+    ROW(INTEGER, jobs, "designs evaluated at once, with as many shares of the threads",
+        .option = "jobs", SETTING_FROM(1, 64), .otherwise = "1"),
+};
 
 #define COMMAND(name, list)                                                                        \
     {                                                                                              \
@@ -79,7 +95,7 @@ static const struct command {
     struct settings table;
     int (*run)(const struct options *options);
 } COMMANDS[] = {COMMAND(init, INIT), COMMAND(check, CHECK), COMMAND(run, RUN),
-                COMMAND(report, REPORT)};
+                COMMAND(report, REPORT), COMMAND(serve, SERVE)};
 enum { N_COMMANDS = sizeof COMMANDS / sizeof *COMMANDS };
 
 /* The options of all commands. */
@@ -106,7 +122,7 @@ static int run_hullopt(int argc, char **argv)
 {
     struct options options = {.froude = NAN, .overrides = {-1, -1}, .start = cli_seconds()};
     if (argc < 2)
-        return cli_usage("no command, expected init, check, run or report");
+        return cli_usage("no command, expected init, check, run, report or serve");
     if (strcmp(argv[1], "--help") == 0)
         return print_help(&options);
     if (strcmp(argv[1], "--version") == 0)
@@ -121,7 +137,7 @@ static int run_hullopt(int argc, char **argv)
         settings_free(&command->table, &options);
         return code;
     }
-    return cli_usage("unknown command '%s', expected init, check, run or report", argv[1]);
+    return cli_usage("unknown command '%s', expected init, check, run, report or serve", argv[1]);
 }
 
 int main(int argc, char **argv)

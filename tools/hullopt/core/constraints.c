@@ -81,11 +81,12 @@ static double limit_of(const struct constraint *c, const struct config *config)
     return *(const double *)(const void *)((const char *)config + c->limit);
 }
 
-static bool is_kept(const struct constraint *c, double limit, double ratio)
+/* Of the ratio of a built design: <= 0 where it is allowed. */
+static double excess_of(const struct constraint *c, double limit, double ratio)
 {
-    return c->bound == CHANGE  ? fabs(ratio - 1) <= limit
-           : c->bound == LEAST ? ratio >= limit
-                               : ratio <= (c->slack > 0 ? c->slack : 1) * limit;
+    return c->bound == CHANGE  ? fabs(ratio - 1) - limit
+           : c->bound == LEAST ? limit - ratio
+                               : ratio - (c->slack > 0 ? c->slack : 1) * limit;
 }
 
 /* The values of a ratio, <= 0 where allowed; returns how many there are. */
@@ -149,7 +150,7 @@ bool limits_kept(const struct config *config, const struct evaluation *e,
         const struct constraint *c = &TABLE[k];
         double limit = limit_of(c, config), ratio = c->figure(e, 0) / c->figure(parent, 0);
         char text[32];
-        if (!c->decides || isnan(limit) || is_kept(c, limit, ratio))
+        if (!c->decides || isnan(limit) || excess_of(c, limit, ratio) <= 0)
             continue;
         print_limit(c, limit, text);
         return core_fail("%s: %s differs by %+.2f %% from the parent's, allowed %s", c->name,
@@ -245,6 +246,7 @@ void constraints_figures(const struct config *config, size_t k, const struct eva
                                      .before = c->figure(parent, most),
                                      .after = c->figure(e, most)};
     f->ratio = f->after / f->before;
-    f->kept = isnan(f->allowed) || is_kept(c, f->allowed, f->ratio);
+    f->excess = excess_of(c, f->allowed, f->ratio);
+    f->kept = isnan(f->allowed) || f->excess <= 0;
     print_limit(c, f->allowed, f->limit);
 }

@@ -39,6 +39,7 @@ struct constraint_figures {
     int decimals;   /* and how many to show */
     double allowed; /* as it stands in the configuration; NAN: not constrained */
     double before, after, ratio;
+    double excess; /* of the ratio over what is allowed, <= 0 where kept; NAN: not constrained */
     bool kept;
     char limit[32]; /* "±2 %", "≥ 0.2", "≤ +25 %", "none" */
 };

@@ -127,6 +127,12 @@ static bool freeze(struct problem *problem, const igabem_options *mesh)
                      igabem_formulation_name(problem->solver.formulation), config->hull);
 }
 
+bool problem_freeze(struct problem *problem)
+{
+    const igabem_options mesh = problem->solver;
+    return freeze(problem, &mesh);
+}
+
 bool problem_read(const struct config *config, struct problem *problem)
 {
     nurbs_hull_options options;
@@ -229,8 +235,7 @@ static bool share_space(struct problem *problem)
     if (!ok)
         return false;
     design_free(&problem->parent);
-    const igabem_options mesh = problem->solver;
-    return build_parent(problem) && (!problem->is_solved || freeze(problem, &mesh));
+    return build_parent(problem) && (!problem->is_solved || problem_freeze(problem));
 }
 
 bool problem_recall(struct problem *problem, galv_model *model, const double *gradient)

@@ -40,6 +40,9 @@ bool problem_restore(const struct config *config, galv_model *model, const size_
                      double length, struct problem *problem);
 void problem_free(struct problem *problem);
 
+/* Freezes the options on the parent again, after the configuration changed: the mesh is kept. */
+bool problem_freeze(struct problem *problem);
+
 /* Reduces the shape to its latent space. */
 bool problem_reduce(struct problem *problem, const galv_shape *shape,
                     const struct core_watch *watch);

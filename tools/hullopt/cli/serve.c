@@ -1,0 +1,118 @@
+#include "cli.h"
+#include "cli/commands.h"
+#include "core/sentence.h"
+#include "serve/designs.h"
+#include "serve/http.h"
+
+#include <pthread.h>
+#include <signal.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What is served, and how much of it. */
+struct server {
+    const struct config *config;
+    struct designs *designs;
+    atomic_size_t evaluated, failed;
+};
+
+static bool sizes(const struct served *model, const json_t *config, size_t sizes[SERVED_OUTPUTS],
+                  struct served_error *error)
+{
+    const struct server *server = model->user_data;
+    struct variant variant;
+    if (!variant_read(server->config, config, &variant, error))
+        return false;
+    variant_sizes(&variant, server->config, sizes);
+    return true;
+}
+
+static json_t *labels(const struct served *model)
+{
+    return variant_labels(((const struct server *)model->user_data)->config);
+}
+
+static bool evaluate_latent(const struct served *model, const double *input, const json_t *config,
+                            double *output, struct served_error *error)
+{
+    struct server *server = model->user_data;
+    struct variant variant;
+    if (!variant_read(server->config, config, &variant, error))
+        return false;
+    bool ok = designs_evaluate(server->designs, input, &variant, output, error);
+    atomic_fetch_add(&server->evaluated, 1);
+    if (!ok) {
+        atomic_fetch_add(&server->failed, 1);
+        fprintf(stderr, "%s: a design failed: %s\n", cli_name(), error->sentence);
+    }
+    return ok;
+}
+
+/* Serves until one of the signals comes. */
+static bool serve(const struct options *options, uint16_t port, struct server *server,
+                  const sigset_t *signals)
+{
+    char sentence[SERVED_SENTENCE];
+    const struct served latent = {.name = "latent",
+                                  .n = designs_modes(server->designs),
+                                  .lower = designs_lower(server->designs),
+                                  .upper = designs_upper(server->designs),
+                                  .sizes = sizes,
+                                  .labels = labels,
+                                  .evaluate = evaluate_latent,
+                                  .user_data = server};
+    struct http *http = http_start(options->address, port, 1, &latent, sentence);
+    if (!http)
+        return cli_refuse("%s", sentence);
+    printf("http://%s:%u serves model 'latent' of %zu variables, %d designs at once\n",
+           options->address, http_port(http), latent.n, options->jobs);
+    bool ok = cli_printed() == CLI_OK;
+    int signal;
+    if (ok)
+        sigwait(signals, &signal);
+    designs_stop(server->designs);
+    http_stop(http);
+    fprintf(stderr, "%s: %zu designs were evaluated, %zu failed\n", cli_name(),
+            atomic_load(&server->evaluated), atomic_load(&server->failed));
+    return ok;
+}
+
+/* Before a thread is made: all of them leave the signals to sigwait(). */
+static void block(sigset_t *signals)
+{
+    sigemptyset(signals);
+    sigaddset(signals, SIGINT);
+    sigaddset(signals, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, signals, NULL);
+}
+
+/* As the job scripts of UM-Bridge's load balancer give it. */
+static bool choose_port(int given, uint16_t *port)
+{
+    const char *text = getenv("PORT");
+    int number = 4242;
+    if (given < 0 && text && (!cli_parse_int(text, &number) || number < 0 || number > UINT16_MAX))
+        return cli_refuse("PORT is '%s' in the environment, expected 0 to 65535", text);
+    *port = (uint16_t)(given < 0 ? number : given);
+    return true;
+}
+
+int serve_command(const struct options *options)
+{
+    struct config config;
+    sigset_t signals;
+    uint16_t port = 0;
+    if (!choose_port(options->port, &port) || !config_read(options->path, NULL, &config))
+        return CLI_FAILED;
+    block(&signals);
+    struct server server = {.config = &config};
+    int threads = cli_threads() / options->jobs;
+    server.designs = designs_start(&config, (size_t)options->jobs, threads > 1 ? threads : 1);
+    bool ok = server.designs ? serve(options, port, &server, &signals)
+                             : cli_refuse("%s", core_sentence());
+    designs_free(server.designs);
+    config_free(&config);
+    return ok ? CLI_OK : CLI_FAILED;
+}
