@@ -1,5 +1,4 @@
 #include "nurbs_tool.h"
-#include "ship_forms.h"
 
 #include <jansson.h>
 #include <string.h>
@@ -36,23 +35,25 @@ static nurbs_status make_wigley(struct dimensions d, nurbs_surface **surface)
 }
 
 /* Lengths that are not given: beam and draft as shares of the length. */
-static nurbs_status make_ship(struct dimensions d, struct ship_form (*form)(double, double, double),
+static nurbs_status make_ship(struct dimensions d,
+                              nurbs_status (*fill)(double, double, double, nurbs_ship_form *),
                               double beam, double draft, nurbs_surface **surface)
 {
     double length = d.length > 0 ? d.length : 1;
-    struct ship_form ship =
-        form(length, d.beam > 0 ? d.beam : beam * length, d.draft > 0 ? d.draft : draft * length);
-    return ship_form_make(&ship, surface);
+    nurbs_ship_form form;
+    nurbs_status status = fill(length, d.beam > 0 ? d.beam : beam * length,
+                               d.draft > 0 ? d.draft : draft * length, &form);
+    return status == NURBS_OK ? nurbs_make_ship(&form, surface) : status;
 }
 
 static nurbs_status make_fast(struct dimensions d, nurbs_surface **surface)
 {
-    return make_ship(d, ship_form_fast, 0.13, 0.04, surface);
+    return make_ship(d, nurbs_ship_form_fast, 0.13, 0.04, surface);
 }
 
 static nurbs_status make_bulb(struct dimensions d, nurbs_surface **surface)
 {
-    return make_ship(d, ship_form_bulb, 0.14, 0.05, surface);
+    return make_ship(d, nurbs_ship_form_bulb, 0.14, 0.05, surface);
 }
 
 static const struct body {

@@ -22,6 +22,7 @@
 #include <nurbs/mesh.h>
 #include <nurbs/modify.h>
 #include <nurbs/offsets.h>
+#include <nurbs/particulars.h>
 #include <nurbs/patches.h>
 #include <nurbs/primitives.h>
 #include <nurbs/section.h>

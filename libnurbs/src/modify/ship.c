@@ -1,20 +1,24 @@
-#include "ship_forms.h"
+/* Ships made of a dozen numbers. */
+#include "core/constants.h"
+#include "core/error.h"
 
 #include <nurbs/basis.h>
+#include <nurbs/primitives.h>
 
 #include <math.h>
 
 enum { DEGREE = 3, ALONG = 30, AROUND = 14 };
 
-static const double HALF_PI = 1.57079632679489661923;
 static const double BENT = 0.14; /* share of the length in which sections bend into the stem */
 static const double BULB_REACH = 0.12; /* share of the length over which the bulb grows */
 static const double BULB_PLACE = 0.72; /* of the half girth from waterline to keel */
 static const double BULB_WIDTH = 0.22; /* of the same */
 
-struct ship_form ship_form_fast(double length, double beam, double draft)
+nurbs_status nurbs_ship_form_fast(double length, double beam, double draft, nurbs_ship_form *form)
 {
-    return (struct ship_form){.length = length,
+    if (!form)
+        return nurbs_fail(NURBS_ERROR_ARGUMENT, "no form to fill");
+    *form = (nurbs_ship_form){.length = length,
                               .beam = beam,
                               .draft = draft,
                               .fullest = 0.4,
@@ -24,11 +28,14 @@ struct ship_form ship_form_fast(double length, double beam, double draft)
                               .entrance = 2.0,
                               .section = {3.0, 2.4, 1.5},
                               .rake = 0.05};
+    return NURBS_OK;
 }
 
-struct ship_form ship_form_bulb(double length, double beam, double draft)
+nurbs_status nurbs_ship_form_bulb(double length, double beam, double draft, nurbs_ship_form *form)
 {
-    return (struct ship_form){.length = length,
+    if (!form)
+        return nurbs_fail(NURBS_ERROR_ARGUMENT, "no form to fill");
+    *form = (nurbs_ship_form){.length = length,
                               .beam = beam,
                               .draft = draft,
                               .fullest = 0.45,
@@ -40,6 +47,34 @@ struct ship_form ship_form_bulb(double length, double beam, double draft)
                               .rake = 0.0,
                               .bulb_length = 0.025,
                               .bulb_beam = 0.1};
+    return NURBS_OK;
+}
+
+static nurbs_status check_form(const nurbs_ship_form *form)
+{
+    const double tiny = 1e-9, large = 1e9; /* positive, finite */
+    const struct {
+        const char *name;
+        double value, least, most;
+    } numbers[] = {{"length", form->length, tiny, large},
+                   {"beam", form->beam, tiny, large},
+                   {"draft", form->draft, tiny, large},
+                   {"fullest", form->fullest, tiny, 1 - tiny},
+                   {"transom_beam", form->transom_beam, 0, 1},
+                   {"transom_draft", form->transom_draft, 0, 1},
+                   {"run", form->run, tiny, large},
+                   {"entrance", form->entrance, tiny, large},
+                   {"section[0]", form->section[0], tiny, large},
+                   {"section[1]", form->section[1], tiny, large},
+                   {"section[2]", form->section[2], tiny, large},
+                   {"rake", form->rake, -1, 1},
+                   {"bulb_length", form->bulb_length, 0, 1},
+                   {"bulb_beam", form->bulb_beam, 0, 1}};
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
+        if (!(numbers[k].value >= numbers[k].least && numbers[k].value <= numbers[k].most))
+            return nurbs_fail(NURBS_ERROR_ARGUMENT, "ship: %s is %g, expected %g to %g",
+                              numbers[k].name, numbers[k].value, numbers[k].least, numbers[k].most);
+    return NURBS_OK;
 }
 
 static double smooth_step(double s)
@@ -49,7 +84,7 @@ static double smooth_step(double s)
 }
 
 /* Half breadth of the waterline at s = x/L. */
-static double half_breadth(const struct ship_form *form, double s)
+static double half_breadth(const nurbs_ship_form *form, double s)
 {
     double m = form->fullest;
     double share = s < m ? 1.0 - (1.0 - form->transom_beam) * pow((m - s) / m, 2.0)
@@ -57,13 +92,13 @@ static double half_breadth(const struct ship_form *form, double s)
     return 0.5 * form->beam * fmax(0.0, share);
 }
 
-static double keel_draft(const struct ship_form *form, double s)
+static double keel_draft(const nurbs_ship_form *form, double s)
 {
     double rise = fmax(0.0, 1.0 - s / form->run);
     return form->draft * (1.0 - (1.0 - form->transom_draft) * rise * rise);
 }
 
-static double section_exponent(const struct ship_form *form, double s)
+static double section_exponent(const nurbs_ship_form *form, double s)
 {
     double m = form->fullest;
     int end = s < m ? 0 : 2;
@@ -75,12 +110,12 @@ static double section_exponent(const struct ship_form *form, double s)
 static double bulb_bell(double v)
 {
     double d = (v - BULB_PLACE) / BULB_WIDTH;
-    return exp(-d * d) * sin(2.0 * HALF_PI * fmin(1.0, fmax(0.0, v)));
+    return exp(-d * d) * sin(PI * fmin(1.0, fmax(0.0, v)));
 }
 
-static void form_point(const struct ship_form *form, double s, double v, double point[3])
+static void form_point(const nurbs_ship_form *form, double s, double v, double point[3])
 {
-    double power = 2.0 / section_exponent(form, s), angle = HALF_PI * v;
+    double power = 2.0 / section_exponent(form, s), angle = 0.5 * PI * v;
     double side = v < 1.0 ? pow(cos(angle), power) : 0.0;
     double depth = v > 0.0 ? pow(sin(angle), power) : 0.0;
     double bend = smooth_step((s - 1.0 + BENT) / BENT);
@@ -94,8 +129,14 @@ static void form_point(const struct ship_form *form, double s, double v, double 
     point[2] = -keel_draft(form, s) * depth;
 }
 
-nurbs_status ship_form_make(const struct ship_form *form, nurbs_surface **surface)
+nurbs_status nurbs_make_ship(const nurbs_ship_form *form, nurbs_surface **surface)
 {
+    if (!form || !surface)
+        return nurbs_fail(NURBS_ERROR_ARGUMENT, "no form or no place for the surface");
+    *surface = NULL;
+    nurbs_status status = check_form(form);
+    if (status)
+        return status;
     enum { SIZE = ALONG * AROUND };
     static const int degree[2] = {DEGREE, DEGREE};
     static const size_t size[2] = {ALONG, AROUND};
