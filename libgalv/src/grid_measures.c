@@ -20,10 +20,8 @@ static void cross_water(const double *below, const double *above, double *point)
         point[k] = below[k] + share * (above[k] - below[k]);
 }
 
-/* The wet part of a triangle has up to four corners. */
-static double wet_triangle(const double *const corner[3])
+size_t galv_wet_polygon(const double *const corner[3], double polygon[4][3])
 {
-    double polygon[4][3];
     size_t n = 0;
     for (int k = 0; k < 3; k++) {
         const double *here = corner[k], *next = corner[(k + 1) % 3];
@@ -34,7 +32,13 @@ static double wet_triangle(const double *const corner[3])
         else if (here[2] > 0 && next[2] <= 0)
             cross_water(next, here, polygon[n++]);
     }
-    double sum = 0;
+    return n;
+}
+
+static double wet_triangle(const double *const corner[3])
+{
+    double polygon[4][3], sum = 0;
+    size_t n = galv_wet_polygon(corner, polygon);
     for (size_t k = 2; k < n; k++)
         sum += triangle(polygon[0], polygon[k - 1], polygon[k]);
     return sum;
@@ -49,7 +53,7 @@ void galv_add_cell(const double *a, const double *c, double *sum)
     *sum += wet_triangle((const double *const[]){a, d, c});
 }
 
-static galv_status check_grid(size_t sections, size_t girth, const double *xyz)
+galv_status galv_grid_check(size_t sections, size_t girth, const double *xyz)
 {
     if (sections < 2 || girth < 2 || !xyz)
         return galv_fail(GALV_ERROR_ARGUMENT, "a grid of %zu x %zu points has no cells", sections,
@@ -65,7 +69,7 @@ galv_status galv_grid_volume(size_t sections, size_t girth, const double *xyz, d
 {
     if (!volume)
         return galv_fail(GALV_ERROR_ARGUMENT, "the result must be given");
-    galv_status status = check_grid(sections, girth, xyz);
+    galv_status status = galv_grid_check(sections, girth, xyz);
     if (status)
         return status;
     double sum = 0;
@@ -129,7 +133,7 @@ galv_status galv_grid_entrance(size_t sections, size_t girth, const double *xyz,
         return galv_fail(GALV_ERROR_ARGUMENT, "%s",
                          entrance ? "the greatest slope must be given"
                                   : "the result must be given");
-    galv_status status = check_grid(sections, girth, xyz);
+    galv_status status = galv_grid_check(sections, girth, xyz);
     if (!status)
         status = galv_crossings_find(sections, girth, xyz, &c);
     if (status)

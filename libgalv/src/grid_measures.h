@@ -8,6 +8,12 @@
  * point of the next, and those that follow them along the girth. */
 void galv_add_cell(const double *point, const double *next, double *sum);
 
+/* The corners of the part of a triangle at z <= 0: returns how many, up to four. */
+size_t galv_wet_polygon(const double *const corner[3], double polygon[4][3]);
+
+/* A grid with cells, all its numbers finite. */
+galv_status galv_grid_check(size_t sections, size_t girth, const double *xyz);
+
 /* Where the sections cross z = 0: share[i] of the way from point above[i] to below[i]. */
 typedef struct galv_crossings {
     size_t n;

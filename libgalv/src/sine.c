@@ -13,7 +13,7 @@
 typedef struct sine_shape {
     galv_shape head;
     galv_box box;
-    bool recursive;
+    galv_combination combination;
     bool moves[3];
     galv_sine_step steps[]; /* with all three axes live */
 } sine_shape;
@@ -70,17 +70,28 @@ static galv_status check_reach(const sine_shape *shape, const double *x)
            least = fmin(shape->box.length[0], fmin(shape->box.length[1], shape->box.length[2]));
     for (size_t i = 0; i < shape->head.n; i++)
         reach += fabs(x[i]);
+    if (shape->combination == GALV_COMBINATION_SCALED)
+        least = 1;
     if (!(reach <= LARGEST * least))
-        return galv_fail(GALV_ERROR_ARGUMENT,
-                         "parameters add up to %g m, more than 1e6 box lengths", reach);
+        return galv_fail(GALV_ERROR_ARGUMENT, "parameters add up to %g, more than 1e6 box lengths",
+                         reach);
     return GALV_OK;
+}
+
+/* Multiplies a tile of values with the coordinate along the function's direction. */
+static void scale_tile(const sine_shape *shape, int direction, const double *s, double *v)
+{
+    if (shape->combination != GALV_COMBINATION_SCALED)
+        return;
+    for (size_t p = 0; p < GALV_TILE; p++)
+        v[p] *= shape->box.length[direction] * s[(size_t)direction * GALV_TILE + p];
 }
 
 static void displace_tile(const sine_shape *shape, const double *x, const double *s, double *d)
 {
     double v[GALV_TILE];
     memset(d, 0, 3 * GALV_TILE * sizeof *d);
-    if (shape->recursive) {
+    if (shape->combination == GALV_COMBINATION_RECURSIVE) {
         for (size_t p = 0; p < GALV_TILE; p++)
             v[p] = 1;
         for (size_t i = 0; i < shape->head.n; i++)
@@ -93,6 +104,7 @@ static void displace_tile(const sine_shape *shape, const double *x, const double
             v[p] = x[i];
         for (int j = 0; j < 3; j++)
             galv_sine_factor(step->order[j], step->phase[j], s + j * GALV_TILE, v);
+        scale_tile(shape, step->direction, s, v);
         for (size_t p = 0; p < GALV_TILE; p++)
             d[(size_t)step->direction * GALV_TILE + p] += v[p];
     }
@@ -172,6 +184,7 @@ static void sine_plan_destroy(galv_plan *head)
 static void plan_steps(const sine_shape *shape, sine_plan *plan)
 {
     bool moved[3] = {false, false, false};
+    bool recursive = shape->combination == GALV_COMBINATION_RECURSIVE;
     size_t n = shape->head.n;
     for (size_t i = 0; i < n; i++) {
         const galv_sine_step *whole = &shape->steps[i];
@@ -181,7 +194,7 @@ static void plan_steps(const sine_shape *shape, sine_plan *plan)
             for (size_t p = 0; p < GALV_TILE; p++)
                 plan->factors[(tile * n + i) * GALV_TILE + p] = 1;
         for (int j = 0; j < 3; j++) {
-            if (shape->recursive && moved[j] && whole->order[j] != 0) {
+            if (recursive && moved[j] && whole->order[j] != 0) {
                 step->axis[step->live] = j;
                 step->order[step->live] = whole->order[j];
                 step->phase[step->live] = whole->phase[j];
@@ -193,11 +206,14 @@ static void plan_steps(const sine_shape *shape, sine_plan *plan)
                                  plan->s + (tile * 3 + (size_t)j) * GALV_TILE,
                                  plan->factors + (tile * n + i) * GALV_TILE);
         }
+        for (size_t tile = 0; tile < plan->tiles; tile++)
+            scale_tile(shape, step->direction, plan->s + tile * 3 * GALV_TILE,
+                       plan->factors + (tile * n + i) * GALV_TILE);
         moved[step->direction] = true;
     }
 }
 
-/* The linear combination has its functions' values, static products all, as basis. */
+/* The others have their functions' values, static products all, as basis. */
 static galv_status linear_plan(sine_plan *plan, galv_plan **out)
 {
     const sine_shape *shape = plan->shape;
@@ -253,7 +269,7 @@ static galv_status sine_plan_create(const galv_shape *head, size_t npoints, cons
         }
     }
     plan_steps(shape, plan);
-    if (!shape->recursive)
+    if (shape->combination != GALV_COMBINATION_RECURSIVE)
         return linear_plan(plan, out);
     *out = &plan->head;
     return GALV_OK;
@@ -283,8 +299,10 @@ galv_status galv_shape_sine(size_t n, const galv_sine *functions, const galv_box
 {
     if (!functions || !box || !out)
         return galv_fail(GALV_ERROR_ARGUMENT, "functions and box must be given");
-    if (combination != GALV_COMBINATION_LINEAR && combination != GALV_COMBINATION_RECURSIVE)
-        return galv_fail(GALV_ERROR_ARGUMENT, "combination %d is neither linear nor recursive",
+    if (combination != GALV_COMBINATION_LINEAR && combination != GALV_COMBINATION_RECURSIVE &&
+        combination != GALV_COMBINATION_SCALED)
+        return galv_fail(GALV_ERROR_ARGUMENT,
+                         "combination %d is neither linear nor recursive nor scaled",
                          (int)combination);
     galv_status status = check_box(box);
     for (size_t i = 0; i < n && !status; i++)
@@ -302,7 +320,7 @@ galv_status galv_shape_sine(size_t n, const galv_sine *functions, const galv_box
         return status;
     }
     shape->box = *box;
-    shape->recursive = recursive;
+    shape->combination = combination;
     for (size_t i = 0; i < n; i++) {
         galv_sine_step *step = &shape->steps[i];
         *step = (galv_sine_step){.direction = functions[i].direction, .live = 3, .axis = {0, 1, 2}};
@@ -329,7 +347,8 @@ galv_status galv_shape_fold_bound(const galv_shape *head, double *bound, bool *f
 {
     if (!head || !bound || !fixed)
         return galv_fail(GALV_ERROR_ARGUMENT, "shape, bound and fixed must be given");
-    bool linear = head->class == &linear_class;
+    bool linear = head->class == &linear_class &&
+                  ((const sine_shape *)head)->combination == GALV_COMBINATION_LINEAR;
     if (head->class != &recursive_class && !(linear && head->n == 1))
         return galv_fail(GALV_ERROR_ARGUMENT,
                          "a fold bound exists for recursive sine sets, not for a %s shape of %zu "

@@ -215,8 +215,15 @@ static void test_limits(void)
 {
     galv_limits *made;
     double u[FUNCTIONS] = {0}, value;
+    galv_particulars particulars;
+    galv_fairness fairness;
     REFUSED(galv_grid_volume, SECTIONS, GIRTH, NULL, &value);
     REFUSED(galv_grid_volume, SECTIONS, GIRTH, grid, NULL);
+    REFUSED(galv_grid_particulars, SECTIONS, GIRTH, NULL, &particulars);
+    REFUSED(galv_grid_particulars, SECTIONS, GIRTH, grid, NULL);
+    REFUSED(galv_grid_fairness, SECTIONS, GIRTH, NULL, &fairness, &fairness);
+    CU_ASSERT_EQUAL(galv_grid_fairness(SECTIONS, GIRTH, grid, NULL, NULL), GALV_OK);
+    IS_NAN(galv_grid_half_breadth, SECTIONS, GIRTH, NULL, 0, 0);
     REFUSED(galv_grid_entrance, SECTIONS, GIRTH, NULL, 1, &value);
     REFUSED(galv_grid_entrance, SECTIONS, GIRTH, grid, 1, NULL);
     REFUSED(galv_limits_create, NULL, SECTIONS, GIRTH, 1, &made);

@@ -8,8 +8,10 @@ static const double pi = 3.14159265358979323846;
 
 /* Eqs. 16-17 written down as they stand, with the C library's sine. */
 static void displace_plainly(size_t n, const galv_sine *functions, const galv_box *box,
-                             bool recursive, const double *point, const double *x, double *d)
+                             galv_combination combination, const double *point, const double *x,
+                             double *d)
 {
+    bool recursive = combination == GALV_COMBINATION_RECURSIVE;
     d[0] = d[1] = d[2] = 0;
     for (size_t i = 0; i < n; i++) {
         double psi = 1;
@@ -17,7 +19,9 @@ static void displace_plainly(size_t n, const galv_sine *functions, const galv_bo
             double zeta = point[j] - box->origin[j] + (recursive ? d[j] : 0);
             psi *= sin(functions[i].order[j] * pi * zeta / box->length[j] + functions[i].phase[j]);
         }
-        d[functions[i].direction] += x[i] * psi;
+        int q = functions[i].direction;
+        double scale = combination == GALV_COMBINATION_SCALED ? point[q] - box->origin[q] : 1;
+        d[q] += x[i] * psi * scale;
     }
 }
 
@@ -35,8 +39,7 @@ static double worst_difference(size_t n, const galv_sine *functions, galv_combin
         CU_ASSERT_EQUAL(galv_shape_displace(shape, POINTS, xyz, x, d), GALV_OK);
         for (size_t p = 0; p < POINTS; p++) {
             double expected[3];
-            displace_plainly(n, functions, &fixture_box, combination == GALV_COMBINATION_RECURSIVE,
-                             xyz + 3 * p, x, expected);
+            displace_plainly(n, functions, &fixture_box, combination, xyz + 3 * p, x, expected);
             for (int j = 0; j < 3; j++)
                 worst = fmax(worst, fabs(d[3 * p + (size_t)j] - expected[j]));
         }
@@ -53,6 +56,7 @@ static void test_sines_match_definition(void)
     fixture_functions(functions);
     CHECK_CLOSE(worst_difference(FUNCTIONS, functions, GALV_COMBINATION_LINEAR, xyz), 0, 1e-15);
     CHECK_CLOSE(worst_difference(FUNCTIONS, functions, GALV_COMBINATION_RECURSIVE, xyz), 0, 1e-15);
+    CHECK_CLOSE(worst_difference(FUNCTIONS, functions, GALV_COMBINATION_SCALED, xyz), 0, 1e-15);
 }
 
 /* All directions, fractional orders, phases: every axis can be live. */
@@ -71,10 +75,11 @@ static void test_any_direction_and_phase(void)
     functions[4].order[1] = 0;
     CHECK_CLOSE(worst_difference(FUNCTIONS, functions, GALV_COMBINATION_LINEAR, xyz), 0, 2e-15);
     CHECK_CLOSE(worst_difference(FUNCTIONS, functions, GALV_COMBINATION_RECURSIVE, xyz), 0, 2e-15);
+    CHECK_CLOSE(worst_difference(FUNCTIONS, functions, GALV_COMBINATION_SCALED, xyz), 0, 2e-15);
 }
 
 /* A model built from rows of the fast path must see what galv_shape_displace() gives. */
-static void test_rows_match_single_displacements(void)
+static void rows_match_single_displacements(galv_combination combination)
 {
     double xyz[3 * POINTS];
     fixture_grid(xyz);
@@ -87,9 +92,8 @@ static void test_rows_match_single_displacements(void)
         upper[i] = -(lower[i] = -0.02);
     }
     galv_shape *shape = NULL;
-    CU_ASSERT_EQUAL_FATAL(galv_shape_sine(6, functions, &fixture_box, lower, upper,
-                                          GALV_COMBINATION_RECURSIVE, &shape),
-                          GALV_OK);
+    CU_ASSERT_EQUAL_FATAL(
+        galv_shape_sine(6, functions, &fixture_box, lower, upper, combination, &shape), GALV_OK);
     double *x = fixture_samples(shape, 40, 3);
     double *rows = fixture_rows(shape, POINTS, xyz, 40, x), trace = 0;
     for (size_t i = 0; i < 40 * 3 * POINTS; i++)
@@ -102,6 +106,12 @@ static void test_rows_match_single_displacements(void)
     galv_shape_free(shape);
     free(rows);
     free(x);
+}
+
+static void test_rows_match_single_displacements(void)
+{
+    rows_match_single_displacements(GALV_COMBINATION_RECURSIVE);
+    rows_match_single_displacements(GALV_COMBINATION_SCALED);
 }
 
 /* Below the bound every section through the box stays in it and in order, whatever the other

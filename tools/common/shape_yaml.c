@@ -33,8 +33,28 @@ struct shape_text {
 
 static const struct setting_word AUTO[] = {{"auto", NAN}, {NULL, 0}};
 static const struct setting_word AXES[] = {{"x", 0}, {"y", 1}, {"z", 2}, {NULL, 0}};
-static const struct setting_word COMBINATIONS[] = {
-    {"recursive", GALV_COMBINATION_RECURSIVE}, {"linear", GALV_COMBINATION_LINEAR}, {NULL, 0}};
+static const struct setting_word COMBINATIONS[] = {{"recursive", GALV_COMBINATION_RECURSIVE},
+                                                   {"linear", GALV_COMBINATION_LINEAR},
+                                                   {"scaled", GALV_COMBINATION_SCALED},
+                                                   {NULL, 0}};
+
+const char *shape_combination_name(galv_combination combination)
+{
+    const struct setting_word *word = COMBINATIONS;
+    while (word->name && word->value != (double)combination)
+        word++;
+    return word->name ? word->name : "unknown";
+}
+
+bool shape_combination_find(const char *name, galv_combination *combination)
+{
+    for (const struct setting_word *word = COMBINATIONS; word->name; word++)
+        if (strcmp(word->name, name) == 0) {
+            *combination = (galv_combination)word->value;
+            return true;
+        }
+    return false;
+}
 
 #define FUNCTION(...)       SETTING_ROW(struct function_text, __VA_ARGS__)
 #define SHAPE(...)          SETTING_ROW(struct shape_text, __VA_ARGS__)
@@ -45,7 +65,7 @@ static const struct setting_word COMBINATIONS[] = {
 static const struct setting FUNCTION_ROWS[] = {
     FUNCTION("order", NUMBER, order, "half-waves along x, y and z", ALL(3), .required = true),
     FUNCTION("phase", NUMBER, phase, "radians", ALL(3), GIVEN(function_text, has_phase)),
-    FUNCTION("bounds", NUMBER, bounds, "of its parameter, m", ALL(2),
+    FUNCTION("bounds", NUMBER, bounds, "of its parameter, m or share", ALL(2),
              GIVEN(function_text, has_bounds)),
     FUNCTION("direction", CHOICE, direction, "in which points move", .words = AXES,
              GIVEN(function_text, has_direction)),
@@ -62,12 +82,14 @@ static void check_bounds(struct settings_source *source, void *target)
 static const struct settings FUNCTION_TABLE = {4, FUNCTION_ROWS, .check = check_bounds};
 
 static const struct setting ROWS[] = {
-    SHAPE("combination", CHOICE, combination, "whether a function sees what those before it moved",
+    SHAPE("combination", CHOICE, combination,
+          "whether a function sees what those before it moved, or moves each point by a "
+          "share of its own coordinate",
           .words = COMBINATIONS, .otherwise = "recursive"),
     SHAPE("direction", CHOICE, all.direction, "in which points move", .words = AXES,
           .otherwise = "y"),
     SHAPE("phase", NUMBER, all.phase, "radians", ALL(3), .otherwise = "0,0,0"),
-    SHAPE("bounds", NUMBER, all.bounds, "of every parameter, m", ALL(2),
+    SHAPE("bounds", NUMBER, all.bounds, "of every parameter, m or share", ALL(2),
           GIVEN(shape_text, all.has_bounds)),
     SHAPE("box.origin", NUMBER, origin, "m; auto: least coordinate of the points", ALL(3),
           .words = AUTO, .otherwise = "auto"),

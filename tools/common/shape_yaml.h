@@ -13,7 +13,7 @@ enum shape_kind { SHAPE_SINES, SHAPE_LATTICE };
 struct shape_definition {
     enum shape_kind kind;
     size_t n;              /* parameters */
-    double *lower, *upper; /* n each, metres */
+    double *lower, *upper; /* n each, metres or shares */
     galv_box box;
     galv_combination combination; /* of sines */
     galv_sine *functions;         /* n, of sines */
@@ -21,6 +21,10 @@ struct shape_definition {
     int degree[3];
     galv_lattice_move *moves; /* n, of a lattice */
 };
+
+/* "recursive", "linear", "scaled"; and back, false for any other word. */
+const char *shape_combination_name(galv_combination combination);
+bool shape_combination_find(const char *name, galv_combination *combination);
 
 /* Reads PATH. Entries "auto" of the box become the extents of the points. On failure prints the
  * sentence with file, line and field and returns false. */

@@ -42,9 +42,8 @@ static int print_text(const struct model_file *file)
     if (file->girth)
         printf(" (%zu x %zu)", file->sections, file->girth);
     printf(", %zu %s parameters of %s\n", galv_model_parameters(m),
-           file->shape.combination == GALV_COMBINATION_RECURSIVE && file->shape.kind == SHAPE_SINES
-               ? "recursive"
-               : "linear",
+           file->shape.kind == SHAPE_SINES ? shape_combination_name(file->shape.combination)
+                                           : "linear",
            file->shape.kind == SHAPE_SINES ? "sine products" : "a lattice");
     printf("%zu samples", galv_model_samples(m));
     if (file->uniform)

@@ -82,9 +82,7 @@ static bool write_shape(hid_t h5, const struct shape_definition *shape)
         lattice[3 + j] = shape->degree[j];
     }
     return h5_write_text(h5, "kind", shape->kind == SHAPE_SINES ? "sines" : "lattice") &&
-           h5_write_text(h5, "combination",
-                         shape->combination == GALV_COMBINATION_RECURSIVE ? "recursive"
-                                                                          : "linear") &&
+           h5_write_text(h5, "combination", shape_combination_name(shape->combination)) &&
            h5_write_count(h5, "parameters", shape->n) &&
            h5_write_array(h5, "box_origin", 3, 0, shape->box.origin) &&
            h5_write_array(h5, "box_length", 3, 0, shape->box.length) &&
@@ -266,8 +264,10 @@ static bool read_shape(struct reader *r, size_t parameters, struct shape_definit
         r->wrong = "shape (out of memory)";
         return false;
     }
-    shape->combination =
-        strcmp(combination, "linear") == 0 ? GALV_COMBINATION_LINEAR : GALV_COMBINATION_RECURSIVE;
+    if (!shape_combination_find(combination, &shape->combination)) {
+        r->wrong = "shape (combination)";
+        return false;
+    }
     if (!h5_read_array(r->h5, "box_origin", 3, 0, shape->box.origin) ||
         !h5_read_array(r->h5, "box_length", 3, 0, shape->box.length) ||
         !h5_read_array(r->h5, "lower", n, 0, shape->lower) ||

@@ -19,6 +19,7 @@
 #include <galv/limits.h>
 #include <galv/model.h>
 #include <galv/moments.h>
+#include <galv/particulars.h>
 #include <galv/shape.h>
 #include <galv/status.h>
 #include <galv/version.h>

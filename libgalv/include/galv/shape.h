@@ -44,6 +44,10 @@ typedef enum galv_combination {
     GALV_COMBINATION_RECURSIVE, /**< eq. 16: function i is evaluated at the point as moved by
                                  * functions 0..i-1
                                  */
+    GALV_COMBINATION_SCALED,    /**< all functions evaluated at the undisturbed point and multiplied
+                                   with its zeta along their direction: d_q = zeta_q sum x_i psi_i.
+                                   The parameters are shares, not metres, and points on the face
+                                   zeta_q = 0, such as the centre plane, stay there */
 } galv_combination;
 
 /**
@@ -52,7 +56,8 @@ typedef enum galv_combination {
  * @param functions  n functions in the order in which the recursion applies them; copied
  * @param box        the box of eq. 15; points outside it are not refused (psi is defined
  * everywhere)
- * @param lower,upper n bounds of the parameters, metres, lower <= upper; copied
+ * @param lower,upper n bounds of the parameters, metres (shares where the combination says so),
+ * lower <= upper; copied
  * @param[out] shape created
  * @return GALV_ERROR_ARGUMENT names the function or the bound at fault.
  */
