@@ -123,7 +123,7 @@ static const struct {
     const char *text;
     const char *line, *part;
 } bad[] = {
-    {"latent:\n  variance: 1.5\n", ":6:", "between 0 and 1"},
+    {"latent:\n  variance: 1.5\n", ":6:", "> 0 and <= 1"},
     {"latent:\n  variance: 0\n", ":6:", "latent.variance"},
     {"latent:\n  variance: 0.9x\n", ":6:", "'0.9x'"},
     {"latent: {samples: 3.5}\n", ":5:", "whole number from 2"},
@@ -140,6 +140,11 @@ static const struct {
     {"constraints:\n  displacement: 2\n", ":6:", "constraints.displacement"},
     {"constraints:\n  breadth: 1\n", ":6:", "constraints.breadth"},
     {"constraints:\n  entrance: 0.9\n", ":6:", "constraints.entrance"},
+    {"constraints:\n  gm: [0.9, 2]\n", ":6:", "needs constraints.kg"},
+    {"constraints:\n  stations: [0.9, 1.1]\n", ":6:", "needs constraints.at_stations"},
+    {"constraints:\n  at_points: [1, -0.1, 2]\n", ":6:", "expected 2 for each"},
+    {"constraints:\n  beam: [1.1, 1]\n", ":5:", "above a most of 1"},
+    {"constraints:\n  beam: [1]\n", ":6:", "constraints.beam"},
     {"waves:\n  along: 1\n", ":6:", "waves.along"},
     {"verification:\n  froude: [0.3, -1]\n", ":6:", "verification.froude"},
     {"constraints:\n  speeds: 1\n", ":6:", "verification.froude"},

@@ -31,6 +31,8 @@ static void make_problem(void)
     double points[3 * POINTS], fields[MODES * 3 * POINTS] = {0}, lower[MODES] = {-1, -1},
                                                   upper[MODES] = {1, 1};
     const double gradient[MODES] = {0.25, -0.5};
+    for (size_t p = 0; p < PARTICULARS; p++)
+        config.particular[p][0] = config.particular[p][1] = NAN;
     galv_shape *shape;
     galv_options options;
     galv_model *model;

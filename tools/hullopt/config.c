@@ -36,6 +36,11 @@ static const char *method(int value)
 
 #define ROW(...) SETTING_ROW(struct config, __VA_ARGS__)
 
+/* Least and most of a particular. */
+#define PARTICULAR(place, name, meaning)                                                           \
+    ROW("constraints." name, NUMBER, particular[(size_t)(place)], meaning, SETTING_FROM(-10, 1e3), \
+        .n_least = 2, .n_most = 2, .words = NONE, .otherwise = "none")
+
 static const struct setting ROWS[] = {
     ROW("name", TEXT, name, "title of the report", .otherwise = "Hull form optimisation"),
     ROW("hull", FILE, hull, "the hull: one NURBS patch of its port side, up to the deck",
@@ -48,8 +53,9 @@ static const struct setting ROWS[] = {
     ROW("latent.samples", COUNT, samples, "of the shape, from which the latent space is found",
         SETTING_FROM(2, 1e7), .otherwise = "9000"),
     ROW("latent.seed", COUNT, latent_seed, "of the samples", .otherwise = "1"),
-    ROW("latent.variance", NUMBER, variance, "share of the geometric variance to retain",
-        SETTING_INSIDE(0, 1), .otherwise = "0.95"),
+    ROW("latent.variance", NUMBER, variance,
+        "share of the geometric variance to retain; 1: as many variables as parameters",
+        SETTING_FROM(0, 1), .open_least = true, .otherwise = "0.95"),
     ROW("reconstruction.tolerance", NUMBER, tolerance,
         "distance of the simplified patch from the hull, share of the length",
         SETTING_INSIDE(0, 0.1), .otherwise = "1e-4"),
@@ -66,6 +72,31 @@ static const struct setting ROWS[] = {
     ROW("constraints.speeds", NUMBER, speeds,
         "C_w over that of the original at each of verification.froude", SETTING_INSIDE(0, 10),
         .words = NONE, .otherwise = "none"),
+    PARTICULAR(0, "surface", "wetted surface, over that of the original"),
+    PARTICULAR(1, "beam", "beam at the waterline, likewise"),
+    PARTICULAR(2, "lcb", "shift of the centre of buoyancy, share of the length, forward positive"),
+    PARTICULAR(3, "km", "metacentre above the keel, over the original's"),
+    PARTICULAR(4, "gm", "metacentric height for constraints.kg, likewise"),
+    PARTICULAR(5, "midship", "largest section over beam and draft, likewise"),
+    PARTICULAR(6, "waterplane", "waterplane over length and beam, likewise"),
+    PARTICULAR(7, "transom_breadth", "at the waterline, likewise"),
+    PARTICULAR(8, "transom_depth", "of its lowest point, likewise"),
+    PARTICULAR(9, "waterlines", "their turning, likewise: what inflections add to"),
+    PARTICULAR(10, "sections", "their turning, likewise"),
+    PARTICULAR(11, "radius", "least radius of the waterlines, likewise"),
+    PARTICULAR(12, "stations",
+               "half breadths of the waterline at constraints.at_stations, likewise"),
+    PARTICULAR(13, "hard", "half breadths at constraints.at_points, likewise"),
+    PARTICULAR(14, "boxes", "half breadths at constraints.at_boxes over theirs"),
+    ROW("constraints.kg", NUMBER, kg, "centre of gravity above the deepest point, m",
+        SETTING_FROM(0, 1e3), .words = NONE, .otherwise = "none"),
+    ROW("constraints.at_stations", NUMBER, station, "x, m, for constraints.stations",
+        .n_most = CONFIG_PLACES_MOST, .count = offsetof(struct config, stations)),
+    ROW("constraints.at_points", NUMBER, hard_point, "x and z of each, m, for constraints.hard",
+        .n_most = CONFIG_PLACES_MOST, .count = offsetof(struct config, hard_points)),
+    ROW("constraints.at_boxes", NUMBER, box,
+        "x from and to, half breadth, z from and to of each, m, for constraints.boxes",
+        .n_most = CONFIG_PLACES_MOST, .count = offsetof(struct config, boxes)),
     ROW("flow.froude", NUMBER, solver.froude, "U/sqrt(g L)", SETTING_INSIDE(0, 10),
         .required = true),
     ROW("flow.gravity", NUMBER, solver.gravity, "m/s^2", SETTING_ABOVE(0)),
@@ -122,6 +153,30 @@ static const struct setting ROWS[] = {
         .otherwise = "66"),
 };
 
+/* Bounds in order, and places where some are asked for. */
+static void check_places(struct settings_source *source, const struct config *c)
+{
+    const struct {
+        size_t particular;
+        const char *key, *needs;
+        size_t n, each;
+    } list[] = {{12, "constraints.stations", "constraints.at_stations", c->stations, 1},
+                {13, "constraints.hard", "constraints.at_points", c->hard_points, 2},
+                {14, "constraints.boxes", "constraints.at_boxes", c->boxes, 5},
+                {4, "constraints.gm", "constraints.kg", (size_t)!isnan(c->kg), 1}};
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
+        if (!isnan(c->particular[list[i].particular][0]) && !list[i].n)
+            settings_complain(source, list[i].key, "needs %s", list[i].needs);
+        if (list[i].n % list[i].each)
+            settings_complain(source, list[i].needs, "has %zu numbers, expected %zu for each",
+                              list[i].n, list[i].each);
+    }
+    for (size_t i = 0; i < PARTICULARS; i++)
+        if (c->particular[i][0] > c->particular[i][1])
+            settings_complain(source, "constraints", "has a least of %g above a most of %g",
+                              c->particular[i][0], c->particular[i][1]);
+}
+
 static void check(struct settings_source *source, void *target)
 {
     const struct config *c = target;
@@ -133,6 +188,7 @@ static void check(struct settings_source *source, void *target)
     if (!isnan(c->speeds) && !c->verify_froudes)
         settings_complain(source, "constraints.speeds",
                           "needs a list of speeds in verification.froude");
+    check_places(source, c);
     if (!isnan(c->pressure) && !igabem_formulation_info(c->solver.formulation)->pressure)
         settings_complain(source, "constraints.pressure",
                           "needs a resistance by pressure, which %s has not",

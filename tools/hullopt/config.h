@@ -12,7 +12,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { CONFIG_FROUDE_MOST = 8, CONFIG_MODELS_MOST = 4 };
+enum { CONFIG_FROUDE_MOST = 8, CONFIG_MODELS_MOST = 4, CONFIG_PLACES_MOST = 40, PARTICULARS = 15 };
 
 enum search_method { SEARCH_BAYESIAN, SEARCH_GAUSS_NEWTON };
 
@@ -31,6 +31,10 @@ struct config {
     double pressure;     /* largest pressure resistance over that of the parent; NAN: any */
     double speeds;       /* largest C_w at each of verify_froude over the parent's; NAN: any */
     double breadth; /* least share of its half breadth that a wet point keeps; NAN: any from 0 */
+    double particular[PARTICULARS][2];   /* least and most of core/particulars.h; NAN: any */
+    double kg;                           /* centre of gravity above the deepest point, m */
+    size_t stations, hard_points, boxes; /* numbers below: x; x, z; x, x, y, z, z */
+    double station[CONFIG_PLACES_MOST], hard_point[CONFIG_PLACES_MOST], box[CONFIG_PLACES_MOST];
     enum search_method method;
     size_t models; /* formulations besides the solver's: the worst of all is the objective */
     igabem_formulation model[CONFIG_MODELS_MOST];

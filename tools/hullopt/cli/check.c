@@ -100,7 +100,8 @@ static void print_solver(const struct plan *p)
     for (size_t k = 0; k < constraints_count(); k++) {
         struct constraint_figures f;
         constraints_figures(&p->config, k, &p->parent, &p->parent, &f);
-        printf("%-16s%s: %s\n", k ? "" : "limits", f.name, f.limit);
+        if (!f.is_optional || !isnan(f.allowed))
+            printf("%-16s%s: %s\n", k ? "" : "limits", f.name, f.limit);
     }
 }
 

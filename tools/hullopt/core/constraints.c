@@ -1,18 +1,23 @@
 #include "core/constraints.h"
 
+#include "core/particulars.h"
+
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
 
-/* Half breadths of the grid of a latent point, which two of the limits need. */
+/* What is known of a latent point by its grid: half breadths, which two of the limits need, and the
+ * particulars where one is bounded. */
 struct known {
     const struct problem *problem;
     const double *u;
     double least, share;
+    double particular[PARTICULARS][2];
 };
 
-/* What is bounded is the ratio of a figure to that of the parent. */
-enum bound { CHANGE, LEAST, MOST }; /* |ratio - 1| <= limit, ratio >= limit, ratio <= limit */
+/* What is bounded is the ratio of a figure to that of the parent, or a particular's change:
+ * |ratio - 1| <= limit, ratio >= limit, ratio <= limit, least <= ratio <= most. */
+enum bound { CHANGE, LEAST, MOST, RANGE };
 
 struct constraint {
     const char *name, *label, *unit;
@@ -22,26 +27,47 @@ struct constraint {
     enum bound bound;
     double margin; /* what is known is that far off: the search stays inside, */
     double slack;  /* or what is built may exceed the limit by this factor */
-    bool (*known)(const struct known *known, double *ratio); /* NULL: only the solve tells */
-    bool decides;                                            /* a built design outside has failed */
-    bool speeds; /* at each of verification.froude, when it is asked for */
+    /* The least and the greatest of its ratios; NULL: only the solve tells. */
+    bool (*known)(const struct known *known, const struct constraint *c, double ratio[2]);
+    bool decides; /* a built design outside has failed */
+    bool speeds;  /* at each of verification.froude, when it is asked for */
     double (*figure)(const struct evaluation *e, size_t speed);
+    enum particular particular; /* of a RANGE */
 };
 
-static bool known_breadth(const struct known *known, double *ratio)
+static bool both(double ratio[2])
 {
-    *ratio = known->share;
+    ratio[1] = ratio[0];
     return true;
 }
 
-static bool known_entrance(const struct known *known, double *ratio)
+static bool known_breadth(const struct known *known, const struct constraint *c, double ratio[2])
 {
-    return galv_limits_entrance(known->problem->limits, known->u, ratio) == GALV_OK;
+    (void)c;
+    ratio[0] = known->share;
+    return both(ratio);
 }
 
-static bool known_volume(const struct known *known, double *ratio)
+static bool known_entrance(const struct known *known, const struct constraint *c, double ratio[2])
 {
-    return galv_limits_volume(known->problem->limits, known->u, ratio) == GALV_OK;
+    (void)c;
+    return galv_limits_entrance(known->problem->limits, known->u, ratio) == GALV_OK && both(ratio);
+}
+
+static bool known_volume(const struct known *known, const struct constraint *c, double ratio[2])
+{
+    (void)c;
+    return galv_limits_volume(known->problem->limits, known->u, ratio) == GALV_OK && both(ratio);
+}
+
+static double relate(const struct constraint *c, double after, double before);
+
+static bool known_particular(const struct known *known, const struct constraint *c, double ratio[2])
+{
+    for (int end = 0; end < 2; end++)
+        ratio[end] = relate(c, known->particular[c->particular][end],
+                            known->problem->particular[c->particular][end]);
+    return true;
 }
 
 #define FIGURE(name, expression)                                                                   \
@@ -71,42 +97,101 @@ static const struct constraint TABLE[] = {
     {"speeds", "C_w at other speeds, the one that rises most", "10⁻³", 1e3, 4, AT(speeds),
      .bound = MOST, .speeds = true, .figure = at_speed},
 };
-enum { ROWS = sizeof TABLE / sizeof *TABLE };
+enum { OWN = sizeof TABLE / sizeof *TABLE, ROWS = OWN + PARTICULARS };
 
+/* What a step that ends on a limit may be outside. */
+static const double ROUNDING = 1e-6;
 /* Grids are allowed to touch the centre plane. */
 static const double TOUCH = 1e-9;
 
+/* The rows of the table, then one for each particular. */
+static struct constraint row(size_t k)
+{
+    if (k < OWN)
+        return TABLE[k];
+    enum particular p = (enum particular)(k - OWN);
+    const struct particular_row *named = particular_row(p);
+    return (struct constraint){
+        named->key,      named->label,
+        named->unit,     1,
+        named->decimals, offsetof(struct config, particular) + 2 * (size_t)p * sizeof(double),
+        .bound = RANGE,  .known = known_particular,
+        .particular = p};
+}
+
+/* The first of the two of a range, which are given together. */
 static double limit_of(const struct constraint *c, const struct config *config)
 {
     return *(const double *)(const void *)((const char *)config + c->limit);
 }
 
-/* Of the ratio of a built design: <= 0 where it is allowed. */
-static double excess_of(const struct constraint *c, double limit, double ratio)
+/* Between what a ratio may be; margin: how far inside. */
+static void bounds_of(const struct constraint *c, const struct config *config, double margin,
+                      double bound[2])
 {
-    return c->bound == CHANGE  ? fabs(ratio - 1) - limit
-           : c->bound == LEAST ? limit - ratio
-                               : ratio - (c->slack > 0 ? c->slack : 1) * limit;
+    const double *limit = (const double *)(const void *)((const char *)config + c->limit);
+    double band = fmax(*limit - margin, 0);
+    bound[0] = c->bound == CHANGE  ? 1 - band
+               : c->bound == LEAST ? *limit
+               : c->bound == RANGE ? limit[0]
+                                   : -INFINITY;
+    bound[1] = c->bound == CHANGE  ? 1 + band
+               : c->bound == MOST  ? *limit
+               : c->bound == RANGE ? limit[1]
+                                   : INFINITY;
 }
 
-/* The values of a ratio, <= 0 where allowed; returns how many there are. */
-static size_t write_values(const struct constraint *c, double limit, double ratio, double value[2])
+/* Of the ratio of a built design: <= 0 where it is allowed. */
+static double excess_of(const struct constraint *c, const struct config *config, double ratio)
 {
-    double band = fmax(limit - c->margin, 0);
-    value[0] = c->bound == CHANGE  ? ratio - 1 - band
-               : c->bound == LEAST ? limit - ratio
-                                   : ratio - limit;
-    value[1] = 1 - ratio - band;
-    return c->bound == CHANGE ? 2 : 1;
+    double bound[2];
+    bounds_of(c, config, 0, bound);
+    return isnan(limit_of(c, config))
+               ? NAN
+               : fmax(bound[0] - ratio, ratio - (c->slack > 0 ? c->slack : 1) * bound[1]);
+}
+
+/* A ratio, or a change. */
+static double relate(const struct constraint *c, double after, double before)
+{
+    if (c->bound != RANGE || c->particular < PARTICULAR_STATIONS)
+        return c->bound == RANGE && particular_row(c->particular)->shift ? after - before
+                                                                         : after / before;
+    return after; /* of several places: ratios already */
+}
+
+/* The values of a ratio known between ratio[0] and ratio[1], <= 0 where allowed; returns how many
+ * there are. */
+static size_t write_values(const struct constraint *c, const struct config *config,
+                           const double ratio[2], double value[2])
+{
+    double bound[2];
+    size_t n = 0;
+    bounds_of(c, config, c->margin, bound);
+    if (isfinite(bound[1]))
+        value[n++] = ratio[1] - bound[1];
+    if (isfinite(bound[0]))
+        value[n++] = bound[0] - ratio[0];
+    return n;
+}
+
+static bool asks_particulars(const struct config *config)
+{
+    for (size_t k = 0; k < PARTICULARS; k++)
+        if (!isnan(config->particular[k][0]))
+            return true;
+    return false;
 }
 
 size_t limits_count(const struct config *config)
 {
     double value[2];
     size_t n = 1; /* the centre plane */
-    for (size_t k = 0; k < ROWS; k++)
-        if (TABLE[k].known && !isnan(limit_of(&TABLE[k], config)))
-            n += write_values(&TABLE[k], 0, 1, value);
+    for (size_t k = 0; k < ROWS; k++) {
+        const struct constraint c = row(k);
+        if (c.known && !isnan(limit_of(&c, config)))
+            n += write_values(&c, config, (const double[2]){1, 1}, value);
+    }
     return n;
 }
 
@@ -117,25 +202,30 @@ int limits_evaluate(void *user_data, size_t d, const double *u, double *value)
     (void)d;
     if (galv_limits_breadth(problem->limits, u, &known.least, &known.share) != GALV_OK)
         return 1;
+    if (asks_particulars(problem->config) && !particulars_of(problem, u, false, known.particular))
+        return 1;
     *value++ = -known.least / problem_length(problem) - TOUCH;
     for (size_t k = 0; k < ROWS; k++) {
-        double limit = limit_of(&TABLE[k], problem->config), ratio, values[2];
-        if (!TABLE[k].known || isnan(limit))
+        const struct constraint c = row(k);
+        double ratio[2];
+        if (!c.known || isnan(limit_of(&c, problem->config)))
             continue;
-        if (!TABLE[k].known(&known, &ratio) || isnan(ratio))
+        if (!c.known(&known, &c, ratio) || isnan(ratio[0]) || isnan(ratio[1]))
             return 1;
-        size_t n = write_values(&TABLE[k], limit, ratio, values);
-        for (size_t i = 0; i < n; i++)
-            *value++ = values[i];
+        value += write_values(&c, problem->config, ratio, value);
     }
     return 0;
 }
 
 /* The limit as it is read: changes in per cent, shares as they are. */
-static void print_limit(const struct constraint *c, double limit, char text[32])
+static void print_limit(const struct constraint *c, const struct config *config, char text[32])
 {
+    double limit = limit_of(c, config), bound[2];
+    bounds_of(c, config, 0, bound);
     if (isnan(limit))
         snprintf(text, 32, "none");
+    else if (c->bound == RANGE)
+        snprintf(text, 32, "%g to %g", bound[0], bound[1]);
     else if (c->bound == LEAST)
         snprintf(text, 32, "≥ %g", limit);
     else
@@ -146,13 +236,13 @@ static void print_limit(const struct constraint *c, double limit, char text[32])
 bool limits_kept(const struct config *config, const struct evaluation *e,
                  const struct evaluation *parent)
 {
-    for (size_t k = 0; k < ROWS; k++) {
+    for (size_t k = 0; k < OWN; k++) {
         const struct constraint *c = &TABLE[k];
-        double limit = limit_of(c, config), ratio = c->figure(e, 0) / c->figure(parent, 0);
+        double ratio = c->figure(e, 0) / c->figure(parent, 0);
         char text[32];
-        if (!c->decides || isnan(limit) || excess_of(c, limit, ratio) <= 0)
+        if (!c->decides || isnan(limit_of(c, config)) || excess_of(c, config, ratio) <= 0)
             continue;
-        print_limit(c, limit, text);
+        print_limit(c, config, text);
         return core_fail("%s: %s differs by %+.2f %% from the parent's, allowed %s", c->name,
                          c->name, 100 * (ratio - 1), text);
     }
@@ -168,13 +258,14 @@ size_t outcome_bounds(const struct config *config, double lower[OUTCOME_MOST],
                       double upper[OUTCOME_MOST])
 {
     size_t n = 0;
-    for (size_t k = 0; k < ROWS; k++) {
+    for (size_t k = 0; k < OWN; k++) {
         const struct constraint *c = &TABLE[k];
-        double limit = limit_of(c, config);
-        size_t count = c->known || isnan(limit) ? 0 : count_ratios(c, config);
+        size_t count = c->known || isnan(limit_of(c, config)) ? 0 : count_ratios(c, config);
+        double bound[2];
+        bounds_of(c, config, 0, bound);
         for (size_t i = 0; i < count; i++, n++) {
-            lower[n] = c->bound == MOST ? -INFINITY : c->bound == LEAST ? limit : 1 - limit;
-            upper[n] = c->bound == MOST ? limit : c->bound == LEAST ? INFINITY : 1 + limit;
+            lower[n] = bound[0];
+            upper[n] = bound[1];
         }
     }
     return n;
@@ -183,7 +274,7 @@ size_t outcome_bounds(const struct config *config, double lower[OUTCOME_MOST],
 void outcome_ratios(const struct config *config, const struct evaluation *e,
                     const struct evaluation *parent, double ratio[OUTCOME_MOST])
 {
-    for (size_t k = 0; k < ROWS; k++) {
+    for (size_t k = 0; k < OWN; k++) {
         const struct constraint *c = &TABLE[k];
         size_t count = count_ratios(c, config);
         for (size_t i = 0; !c->known && !isnan(limit_of(c, config)) && i < count; i++)
@@ -229,10 +320,28 @@ size_t constraints_count(void)
     return ROWS;
 }
 
+/* Of the worse end, where a particular has several places. */
+static void range_figures(const struct constraint *c, const struct config *config,
+                          const struct evaluation *parent, const struct evaluation *e,
+                          struct constraint_figures *f)
+{
+    const double *before = parent->particular[c->particular], *after = e->particular[c->particular];
+    double bound[2];
+    bounds_of(c, config, 0, bound);
+    double low = relate(c, after[0], before[0]), high = relate(c, after[1], before[1]);
+    int end = high - bound[1] > bound[0] - low;
+    f->before = before[end];
+    f->after = after[end];
+    f->ratio = end ? high : low;
+    f->excess = fmax(bound[0] - low, high - bound[1]) - ROUNDING;
+    bool shift = particular_row(c->particular)->shift;
+    f->change = shift ? f->ratio : f->ratio - 1;
+}
+
 void constraints_figures(const struct config *config, size_t k, const struct evaluation *parent,
                          const struct evaluation *e, struct constraint_figures *f)
 {
-    const struct constraint *c = &TABLE[k];
+    const struct constraint own = row(k), *c = &own;
     size_t most = 0;
     for (size_t i = 1; c->speeds && i < e->speeds; i++)
         if (c->figure(e, i) / c->figure(parent, i) > c->figure(e, most) / c->figure(parent, most))
@@ -243,10 +352,16 @@ void constraints_figures(const struct config *config, size_t k, const struct eva
                                      .decimals = c->decimals,
                                      .scale = c->scale,
                                      .allowed = limit_of(c, config),
-                                     .before = c->figure(parent, most),
-                                     .after = c->figure(e, most)};
-    f->ratio = f->after / f->before;
-    f->excess = excess_of(c, f->allowed, f->ratio);
+                                     .is_optional = k >= OWN};
+    if (c->bound == RANGE) {
+        range_figures(c, config, parent, e, f);
+    } else {
+        f->before = c->figure(parent, most);
+        f->after = c->figure(e, most);
+        f->ratio = f->after / f->before;
+        f->change = f->ratio - 1;
+        f->excess = excess_of(c, config, f->ratio);
+    }
     f->kept = isnan(f->allowed) || f->excess <= 0;
-    print_limit(c, f->allowed, f->limit);
+    print_limit(c, config, f->limit);
 }

@@ -40,8 +40,10 @@ struct constraint_figures {
     double allowed; /* as it stands in the configuration; NAN: not constrained */
     double before, after, ratio;
     double excess; /* of the ratio over what is allowed, <= 0 where kept; NAN: not constrained */
+    double change; /* ratio - 1, or the change that is bounded */
     bool kept;
-    char limit[32]; /* "±2 %", "≥ 0.2", "≤ +25 %", "none" */
+    bool is_optional; /* a particular: of interest where it is constrained */
+    char limit[32];   /* "±2 %", "≥ 0.2", "≤ +25 %", "none" */
 };
 size_t constraints_count(void);
 void constraints_figures(const struct config *config, size_t k, const struct evaluation *parent,

@@ -2,6 +2,7 @@
 
 #include "cli.h"
 #include "core/constraints.h"
+#include "core/particulars.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -27,6 +28,8 @@ void evaluation_start(uint64_t id, const char *phase, const double *u, struct ev
         e->cw_model[i] = NAN;
     for (size_t i = 0; i < SPEEDS_MOST; i++)
         e->cw_speed[i] = NAN;
+    for (size_t i = 0; i < PARTICULARS; i++)
+        e->particular[i][0] = e->particular[i][1] = NAN;
 }
 
 static bool measure(const struct problem *problem, const struct design *design,
@@ -39,6 +42,8 @@ static bool measure(const struct problem *problem, const struct design *design,
     e->bound = nurbs_hull_bound(design->hull);
     e->nu_s = design_nu_s(design);
     e->breadth = 1;
+    if (!particulars_of(problem, e->u, true, e->particular))
+        return false;
     return !e->u || galv_limits_breadth(problem->limits, e->u, NULL, &e->breadth) == GALV_OK ||
            core_fail("grid: %s", galv_last_error());
 }

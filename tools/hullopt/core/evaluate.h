@@ -28,8 +28,9 @@ struct evaluation {
                       solved at other speeds */
     double cw_speed[SPEEDS_MOST];
     double volume, volume_ratio, wetted_area, bound;
-    double breadth; /* least share of its half breadth that a wet point keeps */
-    double nu_s;    /* of the waterline, as design_nu_s() */
+    double breadth;                    /* least share of its half breadth that a wet point keeps */
+    double particular[PARTICULARS][2]; /* of particulars_of() */
+    double nu_s;                       /* of the waterline, as design_nu_s() */
     size_t dofs;
     double propose_seconds, geometry_seconds, solve_seconds;
 };

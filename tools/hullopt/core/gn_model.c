@@ -182,7 +182,7 @@ static double worst(const struct gn_model *model, const double *d)
 
 static bool add_rows(const struct gn_model *model, nlopt_opt step, struct row *rows)
 {
-    enum { LIMITS = 16 };
+    enum { LIMITS = 64 };
     const struct gn_problem *p = model->problem;
     const double tolerance = 1e-6, known = 1e-9; /* of ratios; of limits that hold exactly */
     double each[LIMITS];

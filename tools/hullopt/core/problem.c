@@ -1,5 +1,7 @@
 #include "core/problem.h"
 
+#include "core/particulars.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -247,7 +249,7 @@ bool problem_recall(struct problem *problem, galv_model *model, const double *gr
                            design_nu_s(&problem->parent), &problem->limits) != GALV_OK ||
         (gradient && galv_limits_set_gradient(problem->limits, gradient) != GALV_OK))
         return core_fail("%s: %s", problem->config->hull, galv_last_error());
-    return true;
+    return particulars_of(problem, NULL, true, problem->particular);
 }
 
 static int show_fraction(void *user_data, double fraction)
@@ -275,6 +277,8 @@ bool problem_reduce(struct problem *problem, const galv_shape *shape,
     galv_model *model;
     galv_options_init(&options);
     options.variance = config->variance;
+    if (config->variance == 1)
+        options.modes = galv_shape_parameters(shape);
     options.progress = show_fraction;
     options.progress_user_data = &show;
     size_t points = nurbs_grid_rows(problem->grid) * nurbs_grid_columns(problem->grid);

@@ -28,8 +28,9 @@ struct problem {
     igabem_options solver;
     size_t speeds; /* the same at the speeds of the verification */
     igabem_options speed[CONFIG_FROUDE_MOST];
-    galv_model *model;   /* NULL before problem_reduce() or problem_recall() */
-    galv_limits *limits; /* of its latent points */
+    galv_model *model;                 /* NULL before problem_reduce() or problem_recall() */
+    galv_limits *limits;               /* of its latent points */
+    double particular[PARTICULARS][2]; /* of the parent, by particulars_of() */
 };
 
 /* Reads the hull, samples the grid, builds the parent, freezes the options on it. */

@@ -389,15 +389,18 @@ static size_t unpack_list(const char *name, size_t most, const bayesopt_point *p
     return n;
 }
 
-static const char MODEL[] = "cw_model", SPEED[] = "cw_speed";
+static const char MODEL[] = "cw_model", SPEED[] = "cw_speed", PARTICULAR[] = "particular";
 
 bool record_tell(struct record *record, const struct evaluation *e, const double *ratio)
 {
-    bayesopt_attribute attributes[MEMBERS_MOST + CONFIG_MODELS_MOST + SPEEDS_MOST];
-    char names[CONFIG_MODELS_MOST + SPEEDS_MOST][NAME_SIZE];
+    enum { NUMBERS = 2 * PARTICULARS };
+    bayesopt_attribute attributes[MEMBERS_MOST + CONFIG_MODELS_MOST + SPEEDS_MOST + NUMBERS];
+    char names[CONFIG_MODELS_MOST + SPEEDS_MOST + NUMBERS][NAME_SIZE];
     size_t n = pack(LENGTH(EVALUATION), EVALUATION, e, attributes);
     n += pack_list(MODEL, e->models, e->cw_model, names, attributes + n);
     n += pack_list(SPEED, e->speeds, e->cw_speed, names + e->models, attributes + n);
+    n += pack_list(PARTICULAR, NUMBERS, e->particular[0], names + e->models + e->speeds,
+                   attributes + n);
     const bayesopt_result result = {.f = e->failed ? NAN : e->objective,
                                     .constraints = ratio,
                                     .note = e->failed ? e->reason : NULL,
@@ -405,6 +408,17 @@ bool record_tell(struct record *record, const struct evaluation *e, const double
                                     .attributes = attributes};
     return done(e->id ? bayesopt_tell_result(record->bo, e->id, &result)
                       : bayesopt_tell_point_result(record->bo, e->u, &result, NULL));
+}
+
+/* Those without a value, a place that is not asked for, are not on record. */
+static void unpack_particulars(const bayesopt_point *point, double value[PARTICULARS][2])
+{
+    char text[NAME_SIZE];
+    for (size_t i = 0; i < 2 * PARTICULARS; i++) {
+        number_name(PARTICULAR, i, text);
+        value[i / 2][i % 2] =
+            bayesopt_attribute_number(point->n_attributes, point->attributes, text);
+    }
 }
 
 /* What was not asked for is the parent, which comes first, or a design of a descent. */
@@ -422,6 +436,7 @@ static void read_evaluation(const bayesopt_point *point, bool first, struct eval
     unpack(LENGTH(EVALUATION), EVALUATION, point->n_attributes, point->attributes, e);
     e->models = unpack_list(MODEL, CONFIG_MODELS_MOST, point, e->cw_model);
     e->speeds = unpack_list(SPEED, SPEEDS_MOST, point, e->cw_speed);
+    unpack_particulars(point, e->particular);
 }
 
 bool record_evaluations(const struct record *record, struct evaluation **list, size_t *n)

@@ -93,8 +93,8 @@ static bool print_figures(const struct results *r, const char *folder)
     for (size_t k = 0; k < constraints_count(); k++) {
         struct constraint_figures f;
         constraints_figures(r->problem->config, k, r->baseline, r->best, &f);
-        if (isfinite(f.ratio))
-            printf("%-22s%+.2f %%, limit %s\n", f.name, 100 * (f.ratio - 1), f.limit);
+        if (isfinite(f.ratio) && !(f.is_optional && isnan(f.allowed)))
+            printf("%-22s%+.2f %%, limit %s\n", f.name, 100 * f.change, f.limit);
     }
     printf("%-22s%zu evaluated, %zu failed\n", "designs", r->n - 1, r->failed);
     printf("%-22s%.2f s: geometry %.2f, solve %.2f; proposing %.2f\n", "one evaluation",

@@ -61,7 +61,7 @@ static json_t *constraints(const struct results *r)
         put(row, "allowed", f.allowed);
         put(row, "before", f.before);
         put(row, "after", f.after);
-        put(row, "change", f.ratio - 1);
+        put(row, "change", f.change);
         put(row, "largest_ratio", f.ratio);
         put_flag(row, "satisfied", f.kept);
         json_result_set(o, f.name, row);

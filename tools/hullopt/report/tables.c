@@ -23,11 +23,13 @@ static void constraint_row(FILE *out, const struct results *r, size_t k)
     struct constraint_figures f;
     char format[16];
     constraints_figures(r->problem->config, k, r->baseline, r->best, &f);
+    if (f.is_optional && isnan(f.allowed))
+        return;
     snprintf(format, sizeof format, "%%.%df", f.decimals);
     fprintf(out, "<tr class=\"total\"><td>Constraint: %s</td><td>%s</td>", f.label, f.unit);
     cell(out, format, f.scale * f.before);
     cell(out, format, f.scale * f.after);
-    cell(out, "%+.2f %%", 100 * (f.ratio - 1));
+    cell(out, "%+.2f %%", 100 * f.change);
     fprintf(out, "<td>%s%s</td></tr>\n", f.limit,
             isnan(f.allowed) ? ""
             : f.kept         ? ", kept"
