@@ -214,6 +214,12 @@ expect 0 "$nurbs" moments ship.json --json
 close volume 0.022222222222222222 1e-12
 expect 2 "$nurbs" clean wigley.json ship.json --drop 1
 expect 2 "$nurbs" clean wigley.json ship.json --flip w
+expect 2 "$nurbs" clean wigley.json ship.json --axes xyy
+expect 2 "$nurbs" clean wigley.json ship.json --shift 1,2
+expect 0 "$nurbs" clean wigley.json kilometres.json --scale 1000
+expect 0 "$nurbs" info kilometres.json
+grep -q "nurbs clean --scale 0.001" stdout || fail "info names no remedy"
+expect 0 "$nurbs" clean kilometres.json ship.json --scale 0.001 --shift 1,0,0 --lpp 1.25
 
 # Patches: shared edges, orientation, exact changes; all of them leave the volume alone.
 expect 0 "$nurbs" edit wigley.json split:u:0.4 -o halves.json

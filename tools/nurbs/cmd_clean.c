@@ -10,8 +10,8 @@
 enum { LINE_SIZE = 4000 };
 
 struct request {
-    const char *keep, *drop, *flip, *output;
-    double scale, snap;
+    const char *keep, *drop, *axes, *flip, *shift, *output;
+    double scale, snap, length;
     bool both, json;
     nurbs_hull_options hull;
     char line[LINE_SIZE]; /* what was done */
@@ -68,25 +68,74 @@ static int choose(struct request *request, const char *option, const char *list,
     return CLI_OK;
 }
 
-/* Lengths multiplied, axes reversed. */
+/* The three axes of the file that become x, y and z. */
+static int read_axes(const char *text, size_t axis[3])
+{
+    bool seen[3] = {false, false, false};
+    bool good = strlen(text) == 3;
+    for (int c = 0; c < 3 && good; c++) {
+        good = text[c] >= 'x' && text[c] <= 'z' && !seen[text[c] - 'x'];
+        if (good) {
+            axis[c] = (size_t)(text[c] - 'x');
+            seen[axis[c]] = true;
+        }
+    }
+    return good ? CLI_OK : cli_usage("--axes '%s': expected x, y and z in some order", text);
+}
+
+static int read_shift(const char *text, double shift[3])
+{
+    double *number = NULL;
+    size_t n = 0;
+    bool good = cli_parse_list(text, &number, &n) && n == 3;
+    for (size_t c = 0; c < 3 && good; c++)
+        shift[c] = number[c];
+    free(number);
+    return good ? CLI_OK : cli_usage("--shift '%s': expected three lengths X,Y,Z", text);
+}
+
+/* Lengths multiplied, axes exchanged and reversed, then everything shifted. */
 static int transform(struct request *request, nurbs_patches **patches)
 {
-    double matrix[9] = {request->scale, 0, 0, 0, request->scale, 0, 0, 0, request->scale};
+    size_t axis[3] = {0, 1, 2};
+    double sign[3] = {1, 1, 1}, matrix[9] = {0}, shift[3] = {0, 0, 0};
     nurbs_patches *moved = NULL;
+    int code = request->axes ? read_axes(request->axes, axis) : CLI_OK;
+    if (code == CLI_OK && request->shift)
+        code = read_shift(request->shift, shift);
+    if (code != CLI_OK)
+        return code;
     for (const char *c = request->flip; c && *c; c++) {
         if (!strchr("xyz", *c))
             return cli_usage("--flip '%s': expected some of x, y and z", request->flip);
-        matrix[4 * (*c - 'x')] *= -1;
+        sign[*c - 'x'] *= -1;
     }
-    if (request->scale == 1 && !request->flip)
+    if (request->scale == 1 && !request->axes && !request->flip && !request->shift)
         return CLI_OK;
-    if (nurbs_patches_transform(*patches, matrix, NULL, &moved) != NURBS_OK)
+    for (size_t c = 0; c < 3; c++)
+        matrix[3 * c + axis[c]] = sign[c] * request->scale;
+    if (nurbs_patches_transform(*patches, matrix, shift, &moved) != NURBS_OK)
         return library_failure();
     replace(patches, moved);
     if (request->scale != 1)
         tell(request, "lengths times %g", request->scale);
+    if (request->axes)
+        tell(request, "%s of the file taken as xyz", request->axes);
     if (request->flip)
         tell(request, "reversed %s", request->flip);
+    if (request->shift)
+        tell(request, "shifted by %s m", request->shift);
+    return CLI_OK;
+}
+
+/* The reference length that the file is to keep. */
+static int set_length(struct request *request, nurbs_patches *patches)
+{
+    if (!(request->length > 0))
+        return CLI_OK;
+    if (nurbs_patches_set_length(patches, request->length) != NURBS_OK)
+        return library_failure();
+    tell(request, "reference length %g m", request->length);
     return CLI_OK;
 }
 
@@ -156,6 +205,8 @@ static int clean(struct request *request, const char *path)
     if (code == CLI_OK)
         code = transform(request, &patches);
     if (code == CLI_OK)
+        code = set_length(request, patches);
+    if (code == CLI_OK)
         code = snap(request, &patches);
     if (code == CLI_OK && nurbs_hull_create(patches, &request->hull, &hull) != NURBS_OK)
         code = cli_fail("%s: %s", path, nurbs_last_error());
@@ -178,7 +229,10 @@ static int run(int argc, char **argv)
     const tool_option options[] = {{"keep", OPTION_TEXT, &request.keep, 0, 0},
                                    {"drop", OPTION_TEXT, &request.drop, 0, 0},
                                    {"scale", OPTION_LENGTH, &request.scale, 0, 0},
+                                   {"axes", OPTION_TEXT, &request.axes, 0, 0},
                                    {"flip", OPTION_TEXT, &request.flip, 0, 0},
+                                   {"shift", OPTION_TEXT, &request.shift, 0, 0},
+                                   {"lpp", OPTION_LENGTH, &request.length, 0, 0},
                                    {"snap", OPTION_LENGTH, &request.snap, 0, 0},
                                    {"level", OPTION_NUMBER, &request.hull.level, 0, 0},
                                    {"draft", OPTION_LENGTH, &request.hull.draft, 0, 0},
@@ -205,8 +259,11 @@ const subcommand clean_command = {
     "  --keep K,...   these patches only, counted from 0\n"
     "  --drop K,...   all but these, counted in what is kept\n"
     "  --scale S      multiply lengths: 0.001 for millimetres told as metres\n"
+    "  --axes ORDER   axes of IN that are x (forward), y (to port) and z (up): yxz, xzy, ...\n"
     "  --flip AXES    reverse some of x, y and z\n"
+    "  --shift X,Y,Z  then move by so many metres\n"
+    "  --lpp L        reference length that OUT keeps, metres\n"
     "  --snap T       put edges within T metres of the centre plane into it\n"
-    "  --level Z      height of the still water in IN, after --scale and --flip (0)\n"
+    "  --level Z      height of the still water in IN, after the options above (0)\n"
     "  --draft T      draft of the keel amidships that sets it instead, metres\n"
     "  --both         write both sides of a half hull\n"};

@@ -1,14 +1,5 @@
 #include "nurbs_tool.h"
 
-#include <string.h>
-#include <strings.h>
-
-static bool is_iges(const char *path)
-{
-    const char *dot = strrchr(path, '.');
-    return dot && (strcasecmp(dot, ".igs") == 0 || strcasecmp(dot, ".iges") == 0);
-}
-
 struct request {
     double scale, length, untrim;
     const char *note;
@@ -20,9 +11,8 @@ static int convert(const char *input, const char *output, const struct request *
     const double scale = request->scale;
     char report[4000] = "";
     nurbs_patches *read = NULL, *written = NULL;
-    nurbs_status status = is_iges(input) ? nurbs_patches_read_iges_untrimmed(
-                                               input, request->untrim, &read, report, sizeof report)
-                                         : nurbs_patches_read(input, &read);
+    nurbs_status status =
+        nurbs_patches_read_reported(input, request->untrim, &read, report, sizeof report);
     if (status != NURBS_OK)
         return library_failure();
     const double matrix[9] = {scale, 0, 0, 0, scale, 0, 0, 0, scale};
@@ -62,10 +52,10 @@ static int run(int argc, char **argv)
 const subcommand convert_command = {
     "convert", "change the file format", run,
     "usage: nurbs convert IN OUT [options]\n"
-    "  By extension: reads .json .igs .iges, writes .json .igs .iges .stl .vtu .csv. What an\n"
-    "  IGES file held and what was changed is told on standard error.\n"
-    "  --untrim T     faces of an IGES file that are trimmed to four sides become patches of\n"
-    "                 their own, within T metres (surfaces are kept whole)\n"
+    "  By extension: reads .json .igs .iges .step .stp, writes these and .stl .vtu .csv. What the\n"
+    "  file held and what was changed is told on standard error.\n"
+    "  --untrim T     faces that loops cut out of B-spline surfaces become patches of their own,\n"
+    "                 within T metres (those of IGES files are kept whole)\n"
     "  --scale S      multiply all lengths\n"
     "  --lpp L        reference length kept in a NURBS file\n"
     "  --note TEXT    provenance kept in a NURBS file\n"};

@@ -159,10 +159,35 @@ static void print_heading(const char *path, const nurbs_patches *patches)
         printf("note: %s\n", nurbs_patches_note(patches));
 }
 
+/* What every command makes of the file as a hull, with the call that mends what is wrong: sentences
+ * about it, or why it is refused. */
+static int judge(const char *path, bool json, json_t **verdict)
+{
+    nurbs_hull_options options;
+    nurbs_hull *hull = NULL;
+    const char *step;
+    nurbs_hull_options_init(&options);
+    options.simplify = 0;
+    nurbs_status status = nurbs_hull_read(path, &options, &hull);
+    if (status != NURBS_OK && status != NURBS_ERROR_GEOMETRY && status != NURBS_ERROR_NUMERIC)
+        return library_failure();
+    const char *first = hull ? nurbs_hull_step(hull, 0) : nurbs_last_error();
+    if (json)
+        *verdict = json_pack("{s:b,s:s,s:o}", "taken", hull != NULL, "note", first, "warnings",
+                             hull_steps(hull));
+    else {
+        printf("as a hull: %s%s\n", hull ? "" : "refused: ", first);
+        for (size_t k = 1; (step = nurbs_hull_step(hull, k)); k++)
+            printf("  %s\n", step);
+    }
+    nurbs_hull_free(hull);
+    return CLI_OK;
+}
+
 static int inform(const char *path, const nurbs_patches *patches, double tolerance, bool json)
 {
     nurbs_topology topology;
-    json_t *list = json_array();
+    json_t *list = json_array(), *verdict = NULL;
     int code = CLI_OK;
     if (nurbs_patches_topology(patches, tolerance, &topology) != NURBS_OK)
         code = library_failure();
@@ -170,13 +195,15 @@ static int inform(const char *path, const nurbs_patches *patches, double toleran
         print_heading(path, patches);
     for (size_t k = 0; k < nurbs_patches_count(patches) && code == CLI_OK; k++)
         code = describe(patches, k, json, list);
+    if (code == CLI_OK && !json)
+        print_topology(patches, &topology, tolerance);
+    if (code == CLI_OK)
+        code = judge(path, json, &verdict);
     if (code == CLI_OK && json)
-        code = print_json(json_pack("{s:s,s:f,s:s,s:O,s:o}", "file", path, "lpp",
+        code = print_json(json_pack("{s:s,s:f,s:s,s:O,s:o,s:o}", "file", path, "lpp",
                                     nurbs_patches_length(patches), "note",
                                     nurbs_patches_note(patches), "patches", list, "topology",
-                                    pack_topology(patches, &topology, tolerance)));
-    else if (code == CLI_OK)
-        print_topology(patches, &topology, tolerance);
+                                    pack_topology(patches, &topology, tolerance), "hull", verdict));
     json_decref(list);
     nurbs_topology_free(&topology);
     return code;
@@ -203,5 +230,6 @@ const subcommand info_command = {
     "info", "describe the patches of a file", run,
     "usage: nurbs info FILE [options]\n"
     "  Degrees, sizes, extents and areas of the patches of a file; shared edges with their\n"
-    "  gaps, free edges, and whether all normals are on one side.\n"
+    "  gaps, free edges, and whether all normals are on one side. Then what every command makes\n"
+    "  of the file as a hull, and the call of 'nurbs clean' that mends what is wrong with it.\n"
     "  --tolerance T  metres within which edges run together (1e-4 of the largest extent)\n"};

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+enum { REPORT_SIZE = 4000 };
+
 static int read_number(const tool_option *option, const char *text)
 {
     double value;
@@ -116,7 +118,12 @@ int library_failure(void)
 
 int load_patches(const char *path, nurbs_patches **patches)
 {
-    return nurbs_patches_read(path, patches) == NURBS_OK ? CLI_OK : library_failure();
+    char report[REPORT_SIZE];
+    if (nurbs_patches_read_reported(path, 0, patches, report, sizeof report) != NURBS_OK)
+        return library_failure();
+    if (*report)
+        fprintf(stderr, "%s: %s: %s\n", cli_name(), path, report);
+    return CLI_OK;
 }
 
 int load_surface(const char *path, size_t index, nurbs_patches **patches,

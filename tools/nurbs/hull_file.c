@@ -1,5 +1,5 @@
-#include "nurbs_tool.h"
 #include "json_result.h"
+#include "nurbs_tool.h"
 
 int load_hull(const char *path, const nurbs_hull_options *options, nurbs_hull **hull)
 {

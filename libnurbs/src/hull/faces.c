@@ -77,8 +77,7 @@ static nurbs_status leave_out(nurbs_hull *hull, const bool *drop, const char *wh
         nurbs_patches_free(rest);
         return status;
     }
-    nurbs_patches_free(hull->full);
-    hull->full = rest;
+    hull_replace_full(hull, rest);
     return hull_tell(hull, "%s: %s, no hull: left out", list, why);
 }
 

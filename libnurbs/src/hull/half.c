@@ -208,8 +208,7 @@ static nurbs_status take_port(nurbs_hull *hull, const double area[3])
     }
     free(hull->number);
     hull->number = number;
-    nurbs_patches_free(hull->full);
-    hull->full = port;
+    hull_replace_full(hull, port);
     return hull_tell(hull, "port and starboard in one: the port half is taken");
 }
 
@@ -220,8 +219,7 @@ static nurbs_status mirror_all(nurbs_hull *hull)
     nurbs_status status = nurbs_patches_transform(hull->full, mirror, none, &turned);
     if (status)
         return status;
-    nurbs_patches_free(hull->full);
-    hull->full = turned;
+    hull_replace_full(hull, turned);
     return hull_tell(hull, "the starboard half: mirrored to y >= 0");
 }
 

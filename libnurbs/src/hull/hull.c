@@ -75,6 +75,12 @@ static void choose_length(nurbs_hull *hull)
         hull->length = h->x_fore - h->x_aft;
 }
 
+void hull_replace_full(nurbs_hull *hull, nurbs_patches *patches)
+{
+    nurbs_patches_free(hull->full);
+    hull->full = patches;
+}
+
 /* Back to the file's patches before they were cut. */
 static void dry(nurbs_hull *hull)
 {
@@ -98,8 +104,7 @@ static nurbs_status turn_round(nurbs_hull *hull)
         status = nurbs_patches_transform(hull->full, matrix, shift, &turned);
     if (status)
         return status;
-    nurbs_patches_free(hull->full);
-    hull->full = turned;
+    hull_replace_full(hull, turned);
     return hull_tell(hull,
                      "open at the end of large x, so the bow lies at small x: x turned to %.6g "
                      "m - x",
@@ -141,26 +146,26 @@ static nurbs_status clean(nurbs_hull *hull)
     return status;
 }
 
-static nurbs_status make(nurbs_hull *hull)
+/* Numbers of the patches in the file, and what is relative to the extent. */
+static nurbs_status prepare(nurbs_hull *hull, const hull_box *box)
 {
-    hull_box box;
-    bool bow_aft = false;
     size_t n = nurbs_patches_count(hull->full);
-    if (n == 0)
-        return nurbs_fail(NURBS_ERROR_GEOMETRY, "holds no patches, expected at least one");
-    nurbs_status status = hull_box_of(hull->full, &box);
-    if (status)
-        return status;
     hull->number = malloc(n * sizeof *hull->number);
     if (!hull->number)
         return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu patches", n);
     for (size_t k = 0; k < n; k++)
         hull->number[k] = k;
-    hull->extent = box.upper[0] - box.lower[0];
+    hull->extent = box->upper[0] - box->lower[0];
     if (isnan(hull->options.cut))
         hull->options.cut = default_cut * hull->extent;
     hull->lpp = nurbs_patches_length(hull->full);
-    status = clean(hull);
+    return NURBS_OK;
+}
+
+static nurbs_status place_and_wet(nurbs_hull *hull)
+{
+    bool bow_aft = false;
+    nurbs_status status = clean(hull);
     if (!status)
         status = hull_place(hull);
     if (!status)
@@ -171,13 +176,26 @@ static nurbs_status make(nurbs_hull *hull)
         if (!status)
             status = wet_and_check(hull, &bow_aft);
     }
+    return status ? status : hull_measure(hull);
+}
+
+static nurbs_status make(nurbs_hull *hull)
+{
+    hull_box box;
+    if (nurbs_patches_count(hull->full) == 0)
+        return nurbs_fail(NURBS_ERROR_GEOMETRY, "holds no patches, expected at least one");
+    nurbs_status status = hull_box_of(hull->full, &box);
     if (!status)
-        status = hull_measure(hull);
+        status = prepare(hull, &box);
     if (status)
         return status;
+    hull->level = hull->options.level;
+    status = place_and_wet(hull);
+    if (status)
+        return hull_refuse_with_hint(hull, &box, status);
     water_first(hull);
     choose_length(hull);
-    return NURBS_OK;
+    return hull_doubt(hull, &box);
 }
 
 static nurbs_status start(const nurbs_hull_options *options, nurbs_hull **hull)

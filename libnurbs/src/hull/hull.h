@@ -35,6 +35,9 @@ nurbs_status hull_box_of(const nurbs_patches *patches, hull_box *box);
 __attribute__((format(printf, 2, 3))) nurbs_status hull_tell(nurbs_hull *hull, const char *format,
                                                              ...);
 
+/* Makes `patches`, which it takes, the full ones instead of those it has. */
+void hull_replace_full(nurbs_hull *hull, nurbs_patches *patches);
+
 /* An empty set with the length and note of another. */
 nurbs_status hull_start_patches(const nurbs_patches *from, nurbs_patches **to);
 
@@ -65,5 +68,13 @@ nurbs_status hull_measure(nurbs_hull *hull);
 
 /* Hydrostatics of patches that all lie at y >= 0 (half), or on both sides of the centre plane. */
 nurbs_status hull_hydrostatics(const nurbs_patches *wetted, bool half, nurbs_hydrostatics *sum);
+
+/* After hull_measure(): tells what looks unlike the ship that was meant, with its remedy; refuses a
+ * reference length of another body. file: the box of what was read. */
+nurbs_status hull_doubt(nurbs_hull *hull, const hull_box *file);
+
+/* Adds to the sentence of a refusal what may be wrong with the file: unit, axes, place. */
+nurbs_status hull_refuse_with_hint(const nurbs_hull *hull, const hull_box *box,
+                                   nurbs_status status);
 
 #endif

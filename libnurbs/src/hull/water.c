@@ -263,8 +263,7 @@ nurbs_status hull_place(nurbs_hull *hull)
     nurbs_status status = nurbs_patches_transform(hull->full, turn, shift, &placed);
     if (status)
         return status;
-    nurbs_patches_free(hull->full);
-    hull->full = placed;
+    hull_replace_full(hull, placed);
     return hull_tell(hull, "sunk by %g m and turned bow up by %g radians about x = %g m",
                      o->sinkage, o->trim, o->pivot);
 }
