@@ -47,7 +47,7 @@ static void test_parent(void)
 
 static void test_latent_space(void)
 {
-    const struct core_watch nobody = {NULL, NULL};
+    const struct core_watch nobody = {0};
     const nurbs_grid *grid = problem.grid;
     galv_shape *shape = shape_yaml_read(
         config.shape, nurbs_grid_rows(grid) * nurbs_grid_columns(grid), nurbs_grid_points(grid));

@@ -178,8 +178,35 @@ static void test_two_sessions(void)
     CU_ASSERT_EQUAL(runner_run(&runner, run), 0);
 }
 
+/* Asked to stop, a run ends the design at hand, says how to go on, and does. */
+static void test_stopped(void)
+{
+    static const int signals[] = {SIGINT, SIGTERM};
+    char folder[200];
+    static struct record before, after;
+    runner_path(&runner, "stopped", folder, sizeof folder);
+    const char *const run[] = {"run", config, "--out", folder, "--resume", "--threads", "1", NULL};
+    for (int k = 0; k < 2; k++) {
+        pid_t child = runner_start(&runner, run);
+        wait_for_record("stopped", child);
+        kill(child, signals[k]);
+        CU_ASSERT_EQUAL(runner_wait(&runner, child), 1);
+        CU_ASSERT_PTR_NOT_NULL(strstr(runner.err, "stopped\n"));
+        CU_ASSERT_PTR_NOT_NULL(strstr(runner.err, "--resume goes on"));
+        CU_ASSERT_PTR_NOT_NULL(strstr(runner.err, "search: "));
+        read_record("stopped", &before);
+        CU_ASSERT_TRUE(before.n > 0 && before.n < 27);
+    }
+    CU_ASSERT_EQUAL(runner_run(&runner, run), 0);
+    CU_ASSERT_PTR_NOT_NULL(strstr(runner.err, "search: 100 %"));
+    read_record("stopped", &after);
+    CU_ASSERT_EQUAL(after.n, 27);
+    CU_ASSERT_TRUE(same_prefix(&before, &after));
+}
+
 static const struct check_case cases[] = {
     {"killed at random moments", test_killed},
+    {"asked to stop", test_stopped},
     {"two sessions on one folder", test_two_sessions},
 };
 

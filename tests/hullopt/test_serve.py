@@ -16,7 +16,7 @@ hullopt, examples = sys.argv[1:]
 folder = tempfile.TemporaryDirectory()
 config = f"{folder.name}/wigley.yaml"
 with open(f"{examples}/wigley_small.yaml") as given, open(config, "w") as coarse:
-    text = given.read().replace("elements_u: 20", "elements_u: 10").replace("elements_v: 6", "elements_v: 4")
+    text = given.read().replace("formulation: neumann-kelvin", "formulation: hogner")
     coarse.write(re.sub(r"(hull|shape): (\S+)", rf"\1: {examples}/\2", text))
 server = subprocess.Popen(
     [hullopt, "serve", config, "--port", "0", "--jobs", "2", "--threads", "2"],

@@ -241,7 +241,10 @@ double cli_seconds(void)
 
 void cli_progress_start(struct cli_progress *progress, const char *label)
 {
-    *progress = (struct cli_progress){label, cli_seconds(), 0, isatty(STDERR_FILENO) == 1};
+    *progress = (struct cli_progress){.label = label,
+                                      .started = cli_seconds(),
+                                      .is_terminal = isatty(STDERR_FILENO) == 1,
+                                      .tenths = -1};
 }
 
 static void print_duration(double seconds)
@@ -252,26 +255,51 @@ static void print_duration(double seconds)
         fprintf(stderr, "%.0f min %02d s", floor(seconds / 60), (int)fmod(seconds, 60));
 }
 
+/* Whether a fraction is news. */
+static bool is_due(struct cli_progress *progress, double fraction, double now)
+{
+    static const double redrawn = 0.2, first_seconds = 5;
+    if (progress->is_terminal)
+        return now - progress->last_shown >= redrawn || fraction >= 1;
+    int tenths = (int)floor(10 * fraction);
+    bool due =
+        tenths > progress->tenths && (progress->is_run || now - progress->started >= first_seconds);
+    progress->tenths = due ? tenths : progress->tenths;
+    return due;
+}
+
 void cli_progress_update(struct cli_progress *progress, double fraction, const char *detail)
 {
     double now = cli_seconds();
-    if (!progress->active || (now - progress->last_shown < 0.2 && fraction < 1))
+    if (!progress->label || !is_due(progress, fraction, now))
         return;
     progress->last_shown = now;
-    fprintf(stderr, "\r\033[K%s: %3.0f %%", progress->label, 100 * fraction);
-    if (fraction > 0.02 || now - progress->started > 10) {
+    if (progress->is_terminal)
+        fputs("\r\033[K", stderr);
+    else
+        fprintf(stderr, "%s: ", cli_name());
+    fprintf(stderr, "%s: %3.0f %%", progress->label, 100 * fraction);
+    double since = now - progress->started;
+    if (since > 10 || (since > 0.5 && fraction > 0.02)) {
         fputs(", ", stderr);
-        print_duration(fraction > 0 ? (now - progress->started) * (1 - fraction) / fraction : 0);
+        print_duration(fraction > 0 ? since * (1 - fraction) / fraction : 0);
         fputs(" left", stderr);
     }
     if (detail && *detail)
         fprintf(stderr, ", %s", detail);
+    if (!progress->is_terminal)
+        fputc('\n', stderr);
     fflush(stderr);
 }
 
 void cli_progress_end(struct cli_progress *progress)
 {
-    if (progress->active && progress->last_shown > 0)
+    if (progress->label && progress->last_shown > 0 && progress->is_terminal) {
         fputs("\r\033[K", stderr);
-    progress->active = false;
+    } else if (progress->label && progress->last_shown > 0) {
+        fprintf(stderr, "%s: %s: ended after ", cli_name(), progress->label);
+        print_duration(cli_seconds() - progress->started);
+        fputc('\n', stderr);
+    }
+    progress->label = NULL;
 }

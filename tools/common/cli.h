@@ -53,12 +53,14 @@ bool cli_parse_int(const char *text, int *out);
  * false: not such a list, or more than 100000 numbers. */
 bool cli_parse_list(const char *text, double **out, size_t *n);
 
-/* A progress line on stderr with an estimate of the time left; silent unless stderr is a terminal.
- */
+/* A progress line on stderr with an estimate of the time left: redrawn on a terminal. Elsewhere a
+ * line of its own at the start, at each tenth and at the end; of work that is no run of hours,
+ * those after the first seconds only. */
 struct cli_progress {
     const char *label;
     double started, last_shown;
-    bool active;
+    bool is_terminal, is_run;
+    int tenths; /* that were told */
 };
 void cli_progress_start(struct cli_progress *progress, const char *label);
 void cli_progress_update(struct cli_progress *progress, double fraction, const char *detail);

@@ -8,6 +8,7 @@
 #include "shape_yaml.h"
 
 #include <errno.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -18,6 +19,22 @@ struct watch {
     const char *stage;
 };
 
+static volatile sig_atomic_t stop;
+
+static void ask_to_stop(int signal)
+{
+    stop = signal;
+}
+
+/* A second signal ends the process at once; nothing that was evaluated is lost by that. */
+static void stop_on_signals(void)
+{
+    struct sigaction action = {.sa_handler = ask_to_stop, .sa_flags = (int)SA_RESETHAND};
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+}
+
 static void show(void *user_data, const char *stage, double fraction, const char *detail)
 {
     struct watch *watch = user_data;
@@ -25,8 +42,17 @@ static void show(void *user_data, const char *stage, double fraction, const char
         cli_progress_end(&watch->progress);
     if (!watch->stage || strcmp(watch->stage, stage) != 0)
         cli_progress_start(&watch->progress, stage);
+    watch->progress.is_run = true;
     watch->stage = stage;
     cli_progress_update(&watch->progress, fraction, detail);
+}
+
+/* The bar on a terminal counts failures as it is. */
+static void tell(void *user_data, const char *sentence)
+{
+    const struct watch *watch = user_data;
+    if (!watch->progress.is_terminal)
+        fprintf(stderr, "%s: %s\n", cli_name(), sentence);
 }
 
 static bool say(bool ok)
@@ -71,6 +97,9 @@ static bool work(const struct options *options, struct problem *problem, const g
     ok = ok && say(record_begin_session(&record, cli_threads(), options->start) &&
                    optimise_run(problem, shape, &record, watch));
     cli_progress_end(&((struct watch *)watch->user_data)->progress);
+    if (!ok && stop)
+        cli_fail("nothing is lost: hullopt run %s --out %s --resume goes on", options->path,
+                 options->out);
     ok = ok && report(options, problem, &record);
     record_close(&record);
     return ok;
@@ -81,7 +110,8 @@ static bool run_in_folder(const struct options *options, struct problem *problem
 {
     struct folder folder;
     struct watch lines = {0};
-    const struct core_watch watch = {show, &lines};
+    const struct core_watch watch = {show, tell, &stop, &lines};
+    stop_on_signals();
     if (!folder_open(&folder, options->out))
         return false;
     char *path = folder_join(options->out, "run.db");

@@ -105,6 +105,9 @@ static enum gn_answer coarse(void *user_data, const double *u, struct gn_sample 
     char what[80];
     snprintf(what, sizeof what, "derivatives, solve %zu", ++d->differentiated);
     search_show(d->search, what);
+    d->ok = core_goes_on(d->search->watch);
+    if (!d->ok)
+        return GN_STOP;
     if (!problem_build(d->search->problem, u, &design))
         return GN_FAILED;
     bool ok =

@@ -255,7 +255,7 @@ bool problem_recall(struct problem *problem, galv_model *model, const double *gr
 static int show_fraction(void *user_data, double fraction)
 {
     core_show(user_data, LATENT_SPACE, fraction, NULL);
-    return 0;
+    return !core_goes_on(user_data);
 }
 
 static double built_volume(void *user_data, const double *points)

@@ -100,7 +100,11 @@ void search_show(const struct search *s, const char *what)
 /* Figures and value are told at once: a session that dies leaves a point that is asked again. */
 bool search_step(struct search *s, struct evaluation *e, evaluate_look look, void *user_data)
 {
+    if (!core_goes_on(s->watch))
+        return false;
     evaluate(s->problem, e, look, user_data);
+    if (e->failed)
+        core_tell(s->watch, "design %zu failed: %s", s->done, e->reason);
     if (!tell(s, e) || !record_update_session(s->record))
         return false;
     s->done++;
@@ -116,6 +120,8 @@ static bool loop(struct search *s, double *u)
         uint64_t id;
         struct evaluation e;
         search_show(s, NULL);
+        if (!core_goes_on(s->watch))
+            return false;
         double start = cli_seconds();
         bayesopt_status status = bayesopt_ask(s->record->bo, 1, u, &id);
         if (status > 0)

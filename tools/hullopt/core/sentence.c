@@ -32,3 +32,20 @@ void core_show(const struct core_watch *watch, const char *stage, double fractio
     if (watch->show)
         watch->show(watch->user_data, stage, fraction, detail);
 }
+
+void core_tell(const struct core_watch *watch, const char *format, ...)
+{
+    char line[SENTENCE_SIZE];
+    va_list args;
+    if (!watch->tell)
+        return;
+    va_start(args, format);
+    vsnprintf(line, sizeof line, format, args);
+    va_end(args);
+    watch->tell(watch->user_data, line);
+}
+
+bool core_goes_on(const struct core_watch *watch)
+{
+    return !watch->stop || !*watch->stop || core_fail("stopped");
+}

@@ -3,6 +3,7 @@
 #ifndef HULLOPT_SENTENCE_H
 #define HULLOPT_SENTENCE_H
 
+#include <signal.h>
 #include <stdbool.h>
 
 enum { SENTENCE_SIZE = 512 };
@@ -17,10 +18,16 @@ const char *core_sentence(void);
 typedef void (*core_progress)(void *user_data, const char *stage, double fraction,
                               const char *detail);
 struct core_watch {
-    core_progress show; /* NULL: nobody */
+    core_progress show;                                  /* NULL: nobody */
+    void (*tell)(void *user_data, const char *sentence); /* a line of a log; NULL: nobody */
+    const volatile sig_atomic_t *stop; /* not 0: end before the next solve; NULL: never */
     void *user_data;
 };
 void core_show(const struct core_watch *watch, const char *stage, double fraction,
                const char *detail);
+__attribute__((format(printf, 2, 3))) void core_tell(const struct core_watch *watch,
+                                                     const char *format, ...);
+/* False, with a sentence, once the run is asked to stop. */
+bool core_goes_on(const struct core_watch *watch);
 
 #endif

@@ -135,6 +135,8 @@ bool verify_run(const struct problem *problem, struct record *record,
     free(known);
     for (size_t i = done; i < n && ok; i++) {
         core_show(watch, "verification", (double)i / (double)n, rows[i].label);
+        if (!core_goes_on(watch))
+            return false;
         solve_row(problem->parent.body, problem_best(problem)->body, &options[i], &rows[i]);
         ok = record_put_verification(record, i, &rows[i]) && record_update_session(record);
     }

@@ -65,7 +65,8 @@ bool waves_run(const struct problem *problem, struct record *record, const struc
     for (int best = 0; best < (problem->best.hull ? 2 : 1) && ok; best++) {
         struct waves w;
         core_show(watch, "wave patterns", best / 2.0, NULL);
-        ok = waves_read(record, best, &w) && (w.elevation || compute(problem, best, record));
+        ok = core_goes_on(watch) && waves_read(record, best, &w) &&
+             (w.elevation || compute(problem, best, record));
         free(w.elevation);
     }
     return ok && record_update_session(record);
