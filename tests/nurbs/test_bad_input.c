@@ -182,7 +182,7 @@ static void questions(void)
     REFUSED(nurbs_surface_contour(surface, (const double[]){0, 0, 0}, 0, 4, &contour), NULL);
     REFUSED(nurbs_surface_contour(surface, (const double[]){0, NAN, 0}, 0, 4, &contour), NULL);
     REFUSED(nurbs_surface_contour(surface, (const double[]){0, 0, 1}, INFINITY, 4, &contour), NULL);
-    REFUSED(nurbs_surface_contour(surface, (const double[]){0, 0, 1}, 0, 0, &contour), NULL);
+    REFUSED(nurbs_surface_contour(surface, (const double[]){0, 0, 1}, 0, -1, &contour), NULL);
     REFUSED(nurbs_surface_contour(surface, (const double[]){0, 0, 1}, 0, 65, &contour), NULL);
     nurbs_surface_free(surface);
     nurbs_curve_free(curve);

@@ -101,8 +101,8 @@ static void sectional_areas_are_the_hulls(void)
     x[N + 1] = -0.6 * L;
     CU_ASSERT_EQUAL_FATAL(nurbs_hull_section_areas(hull, N + 2, x, area), NURBS_OK);
     for (int k = 0; k < N; k++)
-        /* chords of parabolas over twelfths of both directions: up to 1/144 + 1/288 less */
-        CHECK_CLOSE(area[k], wigley_section(x[k]), 0.0105 * wigley_section(0));
+        /* chords of parabolas over 256 parts of both directions */
+        CHECK_CLOSE(area[k], wigley_section(x[k]), 5e-5 * wigley_section(0));
     CHECK_CLOSE(area[N], 0, 0);
     CHECK_CLOSE(area[N + 1], 0, 0);
     nurbs_hull_free(hull);
@@ -112,8 +112,8 @@ static void perpendiculars_go_by_the_length_kept(void)
 {
     static const struct {
         double lpp, shift, aft, fore;
-    } rows[] = {
-        {0, 0, -5, 5}, {10, 0, -5, 5}, {9.8, 5, 0, 9.8}, {9.8, 4.9, 0, 9.8}, {20, 5, 0, 10}};
+    } rows[] = {{0, 0, -5, 5},      {10, 0, -5, 5},        {9.8, 5, 0, 9.8},    {9.8, 4.9, 0, 9.8},
+                {9.8, 5.2, 0, 9.8}, {9.6, 0.1, -4.8, 4.8}, {9.8, 20, 15, 24.8}, {20, 5, 0, 10}};
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
         nurbs_hull *hull = wigley(rows[k].lpp, rows[k].shift);
         double x[2];
@@ -122,6 +122,77 @@ static void perpendiculars_go_by_the_length_kept(void)
         CHECK_CLOSE(x[1], rows[k].fore, 1e-12);
         nurbs_hull_free(hull);
     }
+}
+
+/* The option counts like the length that a file keeps. */
+static void perpendiculars_go_by_the_length_given(void)
+{
+    nurbs_surface *surface = NULL;
+    nurbs_hull *hull = NULL;
+    nurbs_hull_options options;
+    nurbs_particulars p;
+    nurbs_hull_options_init(&options);
+    options.length = 9.7;
+    CU_ASSERT_EQUAL_FATAL(nurbs_make_wigley(L, B, T, &surface), NURBS_OK);
+    const nurbs_surface *one = surface;
+    CU_ASSERT_EQUAL_FATAL(nurbs_hull_create_surfaces(1, &one, &options, &hull), NURBS_OK);
+    CU_ASSERT_EQUAL(nurbs_hull_particulars(hull, DENSITY, NAN, &p), NURBS_OK);
+    CHECK_CLOSE(p.perpendicular[0], -4.85, 1e-12);
+    CHECK_CLOSE(p.lcb_from_fore, 4.85, 1e-9);
+    nurbs_hull_free(hull);
+    nurbs_surface_free(surface);
+}
+
+/* Of a body given whole each side counts once, whichever way its patches face; the inner sides of
+ * a catamaran subtract. */
+static void sectional_areas_of_both_sides_and_of_twin_hulls(void)
+{
+    static const double mirror[9] = {1, 0, 0, 0, -1, 0, 0, 0, 1}, apart[3] = {0, 2 * B, 0};
+    nurbs_surface *port = NULL, *starboard = NULL, *outer = NULL, *inner = NULL;
+    nurbs_hull *whole = NULL, *twin = NULL;
+    const double x[2] = {0.1, 3.3};
+    double area[2];
+    CU_ASSERT_EQUAL_FATAL(nurbs_make_wigley(L, B, T, &port), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_transform(port, mirror, NULL, &starboard), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_transform(port, NULL, apart, &outer), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_transform(starboard, NULL, apart, &inner), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(
+        nurbs_hull_create_surfaces(2, (const nurbs_surface *[]){port, starboard}, NULL, &whole),
+        NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(
+        nurbs_hull_create_surfaces(2, (const nurbs_surface *[]){outer, inner}, NULL, &twin),
+        NURBS_OK);
+    CU_ASSERT_EQUAL(nurbs_hull_section_areas(whole, 2, x, area), NURBS_OK);
+    for (int k = 0; k < 2; k++)
+        CHECK_CLOSE(area[k], wigley_section(x[k]), 5e-5 * wigley_section(0));
+    CU_ASSERT_EQUAL(nurbs_hull_section_areas(twin, 2, x, area), NURBS_OK);
+    for (int k = 0; k < 2; k++)
+        CHECK_CLOSE(area[k], 2 * wigley_section(x[k]), 1e-4 * wigley_section(0));
+    nurbs_hull_free(whole);
+    nurbs_hull_free(twin);
+    nurbs_surface_free(port);
+    nurbs_surface_free(starboard);
+    nurbs_surface_free(outer);
+    nurbs_surface_free(inner);
+}
+
+static void waterline_is_the_hulls(void)
+{
+    nurbs_hull *hull = wigley(0, 0);
+    double *xy = NULL;
+    size_t n = 0;
+    CU_ASSERT_EQUAL_FATAL(nurbs_hull_waterline(hull, &n, &xy), NURBS_OK);
+    CU_ASSERT_TRUE(n > 20);
+    for (size_t k = 0; k < n; k++) {
+        double x = xy[2 * k], s = 2 * x / L;
+        CU_ASSERT_TRUE(k == 0 || x >= xy[2 * k - 2]);
+        CHECK_CLOSE(xy[2 * k + 1], B / 2 * (1 - s * s), 1e-6);
+    }
+    free(xy);
+    CU_ASSERT_EQUAL(nurbs_hull_waterline(NULL, &n, &xy), NURBS_ERROR_ARGUMENT);
+    CU_ASSERT_EQUAL(nurbs_hull_waterline(hull, NULL, &xy), NURBS_ERROR_ARGUMENT);
+    CU_ASSERT_EQUAL(nurbs_hull_waterline(hull, &n, NULL), NURBS_ERROR_ARGUMENT);
+    nurbs_hull_free(hull);
 }
 
 static void point_at(const nurbs_surface *surface, double u, double v, double p[3])
@@ -213,6 +284,10 @@ static const struct check_case cases[] = {
      body_without_a_waterline_has_none_of_its_figures},
     {"sectional areas are the hull's", sectional_areas_are_the_hulls},
     {"perpendiculars go by the length kept", perpendiculars_go_by_the_length_kept},
+    {"perpendiculars go by the length given", perpendiculars_go_by_the_length_given},
+    {"sectional areas of both sides and of twin hulls",
+     sectional_areas_of_both_sides_and_of_twin_hulls},
+    {"waterline is the hull's", waterline_is_the_hulls},
     {"ship forms keep their numbers", ship_forms_keep_their_numbers},
     {"refuses what is no ship and no question", refuses_what_is_no_ship_and_no_question},
 };

@@ -373,7 +373,7 @@ static void contours_of_an_ellipsoid(void)
     CU_ASSERT_EQUAL(contour.lines, 0);
     nurbs_contour_free(&contour);
     CU_ASSERT_EQUAL(nurbs_surface_contour(body, across, NAN, 16, &contour), NURBS_ERROR_ARGUMENT);
-    CU_ASSERT_EQUAL(nurbs_surface_contour(body, across, 0, 0, &contour), NURBS_ERROR_ARGUMENT);
+    CU_ASSERT_EQUAL(nurbs_surface_contour(body, across, 0, -1, &contour), NURBS_ERROR_ARGUMENT);
     nurbs_surface_free(body);
 }
 

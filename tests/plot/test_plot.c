@@ -292,36 +292,12 @@ static void test_lines(void)
         const nurbs_surface *surface = nurbs_patches_get(patches, 0);
         const struct plot_hull hulls[2] = {{"original", 1, &surface, {PLOT_ORIGINAL, 1, "5 3"}},
                                            {"optimum", 1, &surface, {PLOT_OPTIMUM, 1, NULL}}};
-        const struct plot_lines lines = {nurbs_patches_length(patches), 0, k ? 20 : 40, 12, 5};
+        double length = nurbs_patches_length(patches), aft = k == 1 || k == 3 ? -length / 2 : 0;
+        const struct plot_lines lines = {{aft, aft + length}, 0, k ? 20 : 40, 12, 5};
         CU_ASSERT_TRUE(plot_lines_plan(&plot, 1200, &lines, 2, hulls));
         check_sheet(&plot);
         nurbs_patches_free(patches);
     }
-}
-
-static void test_sections(void)
-{
-    static const double length = 1, beam = 0.1, draft = 0.0625;
-    nurbs_surface *wigley = NULL;
-    double *edge = NULL;
-    size_t n = 0;
-    CU_ASSERT_EQUAL_FATAL(nurbs_make_wigley(length, beam, draft, &wigley), NURBS_OK);
-    const nurbs_surface *surface = wigley;
-    const struct plot_hull hull = {.n = 1, .surfaces = &surface};
-    for (int k = -4; k <= 4; k++) {
-        double x = 0.11 * k, share = 1 - 4 * x * x / (length * length);
-        CHECK_RELATIVE(plot_section_area(&hull, x), 2.0 / 3 * beam * draft * share, 2e-4);
-    }
-    CU_ASSERT_EQUAL(plot_section_area(&hull, 0.6), 0);
-    CU_ASSERT_TRUE(plot_waterline(&hull, &n, &edge));
-    CU_ASSERT_TRUE(n > 20);
-    for (size_t k = 0; k < n; k++) {
-        double x = edge[2 * k];
-        CU_ASSERT_TRUE(k == 0 || x >= edge[2 * k - 2]);
-        CHECK_CLOSE(edge[2 * k + 1], beam / 2 * (1 - 4 * x * x), 1e-6);
-    }
-    free(edge);
-    nurbs_surface_free(wigley);
 }
 
 static void test_files(void)
@@ -359,7 +335,7 @@ static const struct check_case cases[] = {
     {"ticks", test_ticks},       {"frames", test_frame},      {"escaped text", test_escape},
     {"colour maps", test_maps},  {"charts", test_charts},     {"crowded labels", test_crowd},
     {"history", test_history},   {"fields", test_fields},     {"wave patterns", test_waves},
-    {"lines plans", test_lines}, {"sections", test_sections}, {"files", test_files},
+    {"lines plans", test_lines}, {"files", test_files},
 };
 
 CHECK_MAIN("plot", cases)

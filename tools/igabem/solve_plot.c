@@ -110,20 +110,15 @@ bool solve_draw_waves(const struct solve_run *run, const struct wave_grid *grid,
     size_t n_edge = 0;
     const struct solve_result *last = solve_run_result(run, run->levels - 1, run->cases - 1);
     snprintf(name, sizeof name, "Fr %.4g", last->options.froude);
-    size_t patches = nurbs_patches_count(run->input->patches);
-    const nurbs_surface **surfaces = malloc((patches + 1) * sizeof *surfaces);
-    for (size_t p = 0; surfaces && p < patches; p++)
-        surfaces[p] = nurbs_patches_get(run->input->patches, p);
-    const struct plot_hull hull = {.n = patches, .surfaces = surfaces};
-    bool good = surfaces ? plot_waterline(&hull, &n_edge, &edge) : cli_refuse("out of memory");
-    free(surfaces);
+    if (nurbs_hull_waterline(run->input->source, &n_edge, &edge) != NURBS_OK)
+        return cli_refuse("%s", nurbs_last_error());
     const struct plot_waves waves = {name,       grid->nx,
                                      grid->ny,   n_edge,
                                      grid->x[0], grid->x[grid->ny] - grid->x[0],
                                      grid->y[0], grid->y[1] - grid->y[0],
                                      grid->zeta, edge};
     struct plot plot;
-    good = good && plot_wave_pattern(&plot, WIDTH, 1, &waves) && plot_save(&plot, path);
+    bool good = plot_wave_pattern(&plot, WIDTH, 1, &waves) && plot_save(&plot, path);
     free(edge);
     return good;
 }

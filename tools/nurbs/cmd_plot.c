@@ -2,10 +2,12 @@
 #include "nurbs_tool.h"
 #include "plot/ship.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 struct request {
     struct plot_lines lines;
+    double length;
     size_t width; /* of a PNG, pixels */
     const char *output;
 };
@@ -29,16 +31,37 @@ static bool draw(const nurbs_patches *patches, const struct request *request)
     return plot_save(&plot, request->output);
 }
 
+/* Of what is no hull: the ends of its control points. */
+static bool find_perpendiculars(const nurbs_hull *hull, const nurbs_patches *patches, double length,
+                                double x[2])
+{
+    if (hull)
+        return nurbs_hull_perpendiculars(hull, x) == NURBS_OK;
+    x[0] = INFINITY;
+    x[1] = -INFINITY;
+    for (size_t k = 0; k < nurbs_patches_count(patches); k++) {
+        const nurbs_surface *surface = nurbs_patches_get(patches, k);
+        size_t n = nurbs_surface_size(surface, 0) * nurbs_surface_size(surface, 1);
+        for (size_t i = 0; i < n; i++) {
+            x[0] = fmin(x[0], nurbs_surface_points(surface)[3 * i]);
+            x[1] = fmax(x[1], nurbs_surface_points(surface)[3 * i]);
+        }
+    }
+    if (length > 0)
+        x[1] = x[0] + length;
+    return true;
+}
+
 static int run(int argc, char **argv)
 {
-    struct request request = {{0, 0, 20, 12, 5}, 2520, NULL};
+    struct request request = {{{0, 0}, 0, 20, 12, 5}, NAN, 2520, NULL};
     bool json = false;
     struct plot_lines *lines = &request.lines;
     const tool_option options[] = {{"stations", OPTION_COUNT, &lines->stations, 1, 1000},
                                    {"waterlines", OPTION_COUNT, &lines->waterlines, 1, 1000},
                                    {"buttocks", OPTION_COUNT, &lines->buttocks, 1, 1000},
                                    {"level", OPTION_NUMBER, &lines->level, 0, 0},
-                                   {"lpp", OPTION_LENGTH, &lines->length, 0, 0},
+                                   {"lpp", OPTION_LENGTH, &request.length, 0, 0},
                                    {"width", OPTION_COUNT, &request.width, 100, 20000},
                                    {"output", OPTION_OUTPUT, &request.output, 0, 0}};
     int code = parse_options(argc, argv, OPTION_COUNT_OF(options), options, one_file, &json);
@@ -51,13 +74,14 @@ static int run(int argc, char **argv)
         return CLI_USAGE;
     nurbs_hull_options_init(&hull_options);
     hull_options.level = lines->level;
+    hull_options.length = request.length;
     hull_options.simplify = 0;
     /* What is no hull is drawn as it stands: the picture shows what is wrong with it. */
     if (load_hull(argv[optind], &hull_options, &hull) != CLI_OK)
         code = load_patches(argv[optind], &patches);
     const nurbs_patches *drawn = hull ? nurbs_hull_full(hull) : patches;
-    if (!(lines->length > 0))
-        lines->length = nurbs_patches_length(drawn);
+    if (code == CLI_OK && !find_perpendiculars(hull, patches, request.length, lines->perpendicular))
+        code = library_failure();
     if (code == CLI_OK)
         code = draw(drawn, &request) ? CLI_OK : CLI_FAILED;
     nurbs_hull_free(hull);

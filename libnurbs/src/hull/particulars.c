@@ -6,17 +6,21 @@
 
 #include <math.h>
 
+/* Relative to the waterline: a reference length that is none of this hull, and how far a
+ * perpendicular stands from the waterline's end, a rudder stock or the stem on the water. */
+static const double longest = 1.05, overhang = 0.05;
+
 static void find_perpendiculars(const nurbs_hull *hull, const nurbs_hydrostatics *h, double x[2])
 {
-    static const double longest = 1.05; /* over the waterline: no length of this hull */
-    static const double about_midship = -0.25;
-    double lpp = hull->lpp;
+    double length = hull->length, water = h->x_fore - h->x_aft, near = overhang * water;
+    bool given = hull->waterline && (!isnan(hull->options.length) || hull->lpp > 0) &&
+                 length <= longest * water;
+    double ends[] = {0, -0.5 * length}; /* of axes from the aft perpendicular, from midship */
     x[0] = h->x_aft;
-    x[1] = h->x_fore;
-    if (!(lpp > 0) || !hull->waterline || lpp > longest * (x[1] - x[0]))
-        return;
-    x[0] = h->x_aft < about_midship * lpp ? -0.5 * lpp : 0.0;
-    x[1] = x[0] + lpp;
+    for (int k = 1; k >= 0; k--)
+        if (given && fabs(ends[k] - h->x_aft) <= near && fabs(ends[k] + length - h->x_fore) <= near)
+            x[0] = ends[k];
+    x[1] = given ? x[0] + length : h->x_fore;
 }
 
 static nurbs_status light_hydrostatics(const nurbs_hull *hull, nurbs_hydrostatics *h)
@@ -39,14 +43,12 @@ nurbs_status nurbs_hull_perpendiculars(const nurbs_hull *hull, double x[2])
 static void find_centres(nurbs_particulars *p, const nurbs_hull *hull)
 {
     const nurbs_hydrostatics *h = &p->hydrostatics;
-    bool kept = hull->lpp > 0 && p->perpendicular[0] == 0.0;
-    double aft = kept ? 0.0 : h->x_aft, length = kept ? hull->lpp : p->length;
-    double middle = aft + 0.5 * length;
-    p->lcb_from_fore = aft + length - h->centroid[0];
-    p->lcb_percent = 100.0 * (h->centroid[0] - middle) / length;
+    double aft = p->perpendicular[0], fore = p->perpendicular[1];
+    p->lcb_from_fore = fore - h->centroid[0];
+    p->lcb_percent = 100.0 * (h->centroid[0] - 0.5 * (aft + fore)) / (fore - aft);
     p->kb = h->centroid[2] + h->keel_draft;
     p->lcf = hull->waterline ? h->waterplane_centre : NAN;
-    p->lcf_from_fore = aft + length - p->lcf;
+    p->lcf_from_fore = fore - p->lcf;
 }
 
 static void find_stability(nurbs_particulars *p, double density, double kg)

@@ -2,6 +2,7 @@
  * patches are no special cases. */
 #include "core/error.h"
 #include "hull/hull.h"
+#include "hydrostatics/hydro_parts.h"
 
 #include <nurbs/particulars.h>
 
@@ -9,19 +10,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FINE = 12 /* divisions of a knot span */ };
+/* Divisions of a knot span, of a direction at least: the area between chords and a parabola of n
+ * divisions is 1/n^2 of the whole. */
+enum { SPAN_PARTS = 12, LEAST_PARTS = 256 };
 
-/* Parameters that divide every knot span of one direction in FINE parts; at may be NULL. Returns
- * how many. */
+/* Parameters that divide the knot spans of one direction alike; at may be NULL. Returns how many.
+ */
 static size_t fine_parameters(const nurbs_surface *surface, int d, double *at)
 {
-    size_t size = nurbs_surface_size(surface, d), n = 0;
+    size_t size = nurbs_surface_size(surface, d), n = 0, spans = 0, parts;
     size_t degree = (size_t)nurbs_surface_degree(surface, d);
     const double *knots = nurbs_surface_knots(surface, d);
     for (size_t s = degree; s < size; s++)
-        for (int i = 0; knots[s + 1] > knots[s] && i < FINE; i++, n++)
+        spans += knots[s + 1] > knots[s];
+    parts = (LEAST_PARTS + spans - 1) / spans;
+    parts = parts < SPAN_PARTS ? SPAN_PARTS : parts;
+    for (size_t s = degree; s < size; s++)
+        for (size_t i = 0; knots[s + 1] > knots[s] && i < parts; i++, n++)
             if (at)
-                at[n] = knots[s] + (knots[s + 1] - knots[s]) * i / FINE;
+                at[n] = knots[s] + (knots[s + 1] - knots[s]) * (double)i / (double)parts;
     if (at)
         at[n] = knots[size];
     return n + 1;
@@ -59,15 +66,15 @@ static void slice(const double a[3], const double b[3], const double c[3], size_
     }
 }
 
-/* Adds twice the areas of one patch; part[n] is scratch. */
-static nurbs_status add_patch(const nurbs_surface *surface, size_t n, const double *x, double *part,
-                              double *area)
+/* Adds `share` of the areas of one patch; part[n] is scratch. */
+static nurbs_status add_patch(const nurbs_surface *surface, double share, size_t n, const double *x,
+                              double *part, double *area)
 {
     size_t nu = fine_parameters(surface, 0, NULL), nv = fine_parameters(surface, 1, NULL);
     double *u = malloc((nu + nv + 3 * nu * nv) * sizeof *u);
     if (!u)
         return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for sections of %zu points", nu * nv);
-    double *v = u + nu, *xyz = v + nv, total = 0;
+    double *v = u + nu, *xyz = v + nv;
     fine_parameters(surface, 0, u);
     fine_parameters(surface, 1, v);
     memset(part, 0, n * sizeof *part);
@@ -79,11 +86,8 @@ static nurbs_status add_patch(const nurbs_surface *surface, size_t n, const doub
             slice(a, c, d, n, x, part);
         }
     free(u);
-    /* The sign of the patch's own orientation: the areas of a hull are positive. */
-    for (size_t i = 0; i < n; i++)
-        total += part[i];
     for (size_t i = 0; !status && i < n; i++)
-        area[i] += 2.0 * (total < 0 ? -part[i] : part[i]);
+        area[i] += share * part[i];
     return status;
 }
 
@@ -95,13 +99,24 @@ nurbs_status nurbs_hull_section_areas(const nurbs_hull *hull, size_t n, const do
     for (size_t i = 0; i < n; i++)
         if (!isfinite(x[i]))
             return nurbs_fail(NURBS_ERROR_ARGUMENT, "section %zu lies at x = %g", i, x[i]);
+    size_t patches = nurbs_patches_count(hull->light);
+    const nurbs_surface **list = malloc((patches + 1) * sizeof(const nurbs_surface *));
     double *part = malloc((n + 1) * sizeof *part);
-    if (!part)
-        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu sections", n);
-    memset(area, 0, n * sizeof *area);
-    nurbs_status status = NURBS_OK;
-    for (size_t k = 0; k < nurbs_patches_count(hull->light) && !status; k++)
-        status = add_patch(nurbs_patches_get(hull->light, k), n, x, part, area);
+    int *sign = malloc((patches + 1) * sizeof *sign);
+    nurbs_status status = list && part && sign
+                              ? NURBS_OK
+                              : nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu sections", n);
+    for (size_t k = 0; k < patches && !status; k++)
+        list[k] = nurbs_patches_get(hull->light, k);
+    if (!status)
+        status = outward_signs(patches, list, 0, sign);
+    for (size_t i = 0; i < n && !status; i++)
+        area[i] = 0;
+    /* Both sides: the other one of a half is its mirror image. */
+    for (size_t k = 0; k < patches && !status; k++)
+        status = add_patch(list[k], sign[k] * (hull->half ? 2.0 : 1.0), n, x, part, area);
+    free(list);
     free(part);
+    free(sign);
     return status;
 }

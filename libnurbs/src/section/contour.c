@@ -220,19 +220,30 @@ void nurbs_contour_free(nurbs_contour *contour)
     *contour = (nurbs_contour){0};
 }
 
+/* Cells a knot span for lines without visible corners: surfaces of few spans need more. */
+static int fine_parts(const nurbs_surface *surface)
+{
+    enum { CELLS = 128, LEAST = 6 };
+    size_t spans = nurbs_surface_size(surface, 0) - (size_t)nurbs_surface_degree(surface, 0),
+           across = nurbs_surface_size(surface, 1) - (size_t)nurbs_surface_degree(surface, 1);
+    size_t parts = CELLS / (across < spans ? across : spans);
+    return parts < LEAST ? LEAST : parts > MAX_PARTS ? MAX_PARTS : (int)parts;
+}
+
 nurbs_status nurbs_surface_contour(const nurbs_surface *surface, const double normal[3],
                                    double offset, int parts, nurbs_contour *contour)
 {
     march m;
     *contour = (nurbs_contour){0};
-    if (parts < 1 || parts > MAX_PARTS)
-        return nurbs_fail(NURBS_ERROR_ARGUMENT, "%d parts a knot span, expected 1 to %d", parts,
+    if (parts < 0 || parts > MAX_PARTS)
+        return nurbs_fail(NURBS_ERROR_ARGUMENT, "%d parts a knot span, expected 0 to %d", parts,
                           MAX_PARTS);
     double length = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
     if (!(isfinite(length) && length > 0 && isfinite(offset)))
         return nurbs_fail(NURBS_ERROR_ARGUMENT, "plane with normal (%g, %g, %g) and offset %g",
                           normal[0], normal[1], normal[2], offset);
-    nurbs_status status = march_create(surface, normal, offset, parts, &m);
+    nurbs_status status =
+        march_create(surface, normal, offset, parts ? parts : fine_parts(surface), &m);
     for (size_t i = 0; i + 1 < m.n[0] && status == NURBS_OK; i++)
         for (size_t j = 0; j + 1 < m.n[1]; j++)
             march_cell(&m, i, j);

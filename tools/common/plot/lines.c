@@ -16,7 +16,7 @@ struct plan {
     size_t n;
     const struct plot_hull *hulls;
     double low[3], high[3]; /* of the bodies */
-    double perpendicular[2], base, waterline_step, buttock_step;
+    double base, waterline_step, buttock_step;
 };
 
 static const struct plot_pen grid_pen = {"#d5dbe1", 0.6, NULL}, level_pen = {PLOT_BLUE, 1.1, NULL},
@@ -55,16 +55,6 @@ static bool measure(struct plan *plan)
     return !status || cli_refuse("%s", p ? nurbs_last_error() : "out of memory");
 }
 
-/* Cells a knot span for sections without visible corners: surfaces of few spans need more. */
-static int section_parts(const nurbs_surface *surface)
-{
-    enum { CELLS = 128, LEAST = 6, MOST = 64 };
-    size_t spans = nurbs_surface_size(surface, 0) - (size_t)nurbs_surface_degree(surface, 0),
-           across = nurbs_surface_size(surface, 1) - (size_t)nurbs_surface_degree(surface, 1);
-    size_t parts = CELLS / (across < spans ? across : spans);
-    return parts < LEAST ? LEAST : parts > MOST ? MOST : (int)parts;
-}
-
 /* Goes through the points where coordinate `axis` of the hull is `value`; first: of a line. */
 static bool each_point(const struct plot_hull *hull, int axis, double value,
                        void (*take)(void *user_data, const double *point, bool first),
@@ -73,8 +63,7 @@ static bool each_point(const struct plot_hull *hull, int axis, double value,
     for (size_t s = 0; s < hull->n; s++) {
         double normal[3] = {axis == 0, axis == 1, axis == 2};
         nurbs_contour contour;
-        if (nurbs_surface_contour(hull->surfaces[s], normal, value,
-                                  section_parts(hull->surfaces[s]), &contour) != NURBS_OK)
+        if (nurbs_surface_contour(hull->surfaces[s], normal, value, 0, &contour) != NURBS_OK)
             return cli_refuse("%s", nurbs_last_error());
         for (size_t l = 0; l < contour.lines; l++)
             for (size_t i = contour.first[l]; i < contour.first[l + 1]; i++)
@@ -95,94 +84,6 @@ static void take_range(void *user_data, const double *point, bool first)
     (void)first;
     range->low = fmin(range->low, point[range->axis]);
     range->high = fmax(range->high, point[range->axis]);
-}
-
-bool plot_perpendiculars(const struct plot_hull *hull, double level, double length, double x[2])
-{
-    static const double near = 0.02; /* of the length: overhang of a transom at rest */
-    struct range water = {0, INFINITY, -INFINITY};
-    if (!each_point(hull, 2, level, take_range, &water))
-        return false;
-    if (!(water.low < water.high)) {
-        struct plan body = {.n = 1, .hulls = hull};
-        if (!measure(&body))
-            return false;
-        water.low = body.low[0];
-        water.high = body.high[0];
-    }
-    double waterline = water.high - water.low;
-    x[0] = fabs(water.low) < near * waterline ? 0 : water.low;
-    x[1] = x[0] + (length > 0 ? length : water.high - x[0]);
-    return true;
-}
-
-struct outline {
-    size_t n, room;
-    double *xy;
-};
-
-static void take_outline(void *user_data, const double *point, bool first)
-{
-    struct outline *o = user_data;
-    (void)first;
-    if (o->n == o->room) {
-        size_t room = 2 * o->room + 256;
-        double *more = realloc(o->xy, 2 * room * sizeof *more);
-        if (!more)
-            return;
-        o->xy = more;
-        o->room = room;
-    }
-    if (point[1] >= 0) {
-        o->xy[2 * o->n] = point[0];
-        o->xy[2 * o->n++ + 1] = point[1];
-    }
-}
-
-static int compare(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-bool plot_waterline(const struct plot_hull *wetted, size_t *n, double **xy)
-{
-    /* Just below the water, where the wetted surfaces end, in parts of the draught. */
-    static const double below = 1e-4;
-    struct plan body = {.n = 1, .hulls = wetted};
-    struct outline outline = {0};
-    if (!measure(&body) ||
-        !each_point(wetted, 2, below * fmin(body.low[2], 0), take_outline, &outline)) {
-        free(outline.xy);
-        return false;
-    }
-    if (outline.n)
-        qsort(outline.xy, outline.n, 2 * sizeof *outline.xy, compare);
-    *n = outline.n;
-    *xy = outline.xy;
-    return true;
-}
-
-struct area {
-    double lines, line, last[2]; /* of the lines before, of the one at hand */
-};
-
-static void take_area(void *user_data, const double *point, bool first)
-{
-    struct area *area = user_data;
-    if (first) {
-        area->lines += fabs(area->line);
-        area->line = 0;
-    } else
-        area->line += (area->last[0] + point[1]) * (point[2] - area->last[1]);
-    area->last[0] = point[1];
-    area->last[1] = point[2];
-}
-
-double plot_section_area(const struct plot_hull *wetted, double x)
-{
-    struct area area = {0};
-    return each_point(wetted, 0, x, take_area, &area) ? area.lines + fabs(area.line) : NAN;
 }
 
 /* A line on its way onto the sheet. */
@@ -285,8 +186,9 @@ static void put_heights(const struct plan *plan, const struct view *view, double
 
 static double station(const struct plan *plan, size_t k)
 {
-    return plan->perpendicular[0] + (plan->perpendicular[1] - plan->perpendicular[0]) * (double)k /
-                                        (double)plan->lines->stations;
+    return plan->lines->perpendicular[0] +
+           (plan->lines->perpendicular[1] - plan->lines->perpendicular[0]) * (double)k /
+               (double)plan->lines->stations;
 }
 
 static void put_station_lines(const struct plan *plan, const struct view *view, bool numbered)
@@ -302,10 +204,10 @@ static void put_station_lines(const struct plan *plan, const struct view *view, 
     if (!numbered)
         return;
     double y = view->base - view->scale * low + 28;
-    plot_text(plan->plot, view->left + view->scale * plan->perpendicular[0], y, 10, PLOT_MIDDLE,
-              PLOT_INK, "AP");
-    plot_text(plan->plot, view->left + view->scale * plan->perpendicular[1], y, 10, PLOT_MIDDLE,
-              PLOT_INK, "FP");
+    plot_text(plan->plot, view->left + view->scale * plan->lines->perpendicular[0], y, 10,
+              PLOT_MIDDLE, PLOT_INK, "AP");
+    plot_text(plan->plot, view->left + view->scale * plan->lines->perpendicular[1], y, 10,
+              PLOT_MIDDLE, PLOT_INK, "FP");
 }
 
 /* The number of a station at the tip of its section, lifted with a thin line where others stand. */
@@ -407,7 +309,7 @@ void plot_scale_bar(struct plot *plot, double right, double y, double scale, dou
 static void put_legend(const struct plan *plan, double x, double y)
 {
     const struct plot_lines *l = plan->lines;
-    double length = plan->perpendicular[1] - plan->perpendicular[0];
+    double length = plan->lines->perpendicular[1] - plan->lines->perpendicular[0];
     for (size_t h = 0; h < plan->n; h++)
         if (plan->hulls[h].name) {
             struct plot_legend entry = {plan->hulls[h].name, plan->hulls[h].pen, PLOT_LINE};
@@ -477,9 +379,8 @@ bool plot_lines_plan(struct plot *plot, double width, const struct plot_lines *l
         return false;
     if (!(plan.high[0] > plan.low[0]) || !(plan.high[1] > 0) || !(plan.high[2] > plan.low[2]))
         return cli_refuse("the body has no extent to draw");
-    double *x = plan.perpendicular;
-    if (!plot_perpendiculars(hulls, lines->level, lines->length, x) ||
-        !each_point(hulls, 0, (x[0] + x[1]) / 2, take_range, &midship))
+    const double *x = lines->perpendicular;
+    if (!each_point(hulls, 0, (x[0] + x[1]) / 2, take_range, &midship))
         return false;
     plan.base = midship.low < midship.high ? midship.low : plan.low[2];
     plan.waterline_step = plot_tick_step(plan.high[2] - plan.low[2], (int)lines->waterlines, false);

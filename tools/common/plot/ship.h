@@ -18,7 +18,7 @@ struct plot_hull {
  * waterlines, body plan, in the same spacing, with a bar of metres for each scale. Several hulls
  * are laid over each other; the grid and the numbers are those of the first. */
 struct plot_lines {
-    double length;               /* between perpendiculars; 0: of the waterline, or of the body */
+    double perpendicular[2];     /* x of station 0 and of the last */
     double level;                /* of the still water */
     size_t stations;             /* spaces between the perpendiculars */
     size_t waterlines, buttocks; /* about so many spaces, round numbers of metres apart */
@@ -26,15 +26,6 @@ struct plot_lines {
 /* Opens the sheet. False after a sentence. */
 bool plot_lines_plan(struct plot *plot, double width, const struct plot_lines *lines, size_t n,
                      const struct plot_hull *hulls);
-
-/* Fills x of station 0 and of the last: the aft perpendicular is x = 0 where the waterline begins
- * near it, else the end of the waterline (of the body, if it has none). */
-bool plot_perpendiculars(const struct plot_hull *hull, double level, double length, double x[2]);
-
-/* Creates the waterline of wetted surfaces, n pairs x,y from aft; n = 0 if there is none. */
-bool plot_waterline(const struct plot_hull *wetted, size_t *n, double **xy);
-/* Area of both sides of the section of wetted surfaces at x, m^2; NAN after a sentence. */
-double plot_section_area(const struct plot_hull *wetted, double x);
 
 /* A bar of four round lengths in metres that ends at `right`, about `room` long. */
 void plot_scale_bar(struct plot *plot, double right, double y, double scale, double room);

@@ -2,14 +2,6 @@
 
 #include <math.h>
 
-/* Fore perpendicular: a length ahead of x = 0, or of the aft end of a waterline that is elsewhere.
- */
-static double fore_perpendicular(const struct results *r)
-{
-    double aft = nurbs_hull_hydrostatics(results_hull(r, 0))->x_aft;
-    return (fabs(aft) < 0.02 * problem_length(r->problem) ? 0 : aft) + problem_length(r->problem);
-}
-
 static void set(struct particular *p, int which, double value)
 {
     p->value[which] = value;
@@ -38,7 +30,9 @@ size_t particulars_list(const struct results *r, struct particular list[PARTICUL
         {"cwp", "Waterplane coefficient", "", 4, {0, 0}},
     };
     enum { ROWS = sizeof rows / sizeof *rows };
-    double fp = fore_perpendicular(r), length = problem_length(r->problem);
+    double length = problem_length(r->problem), end[2] = {NAN, NAN};
+    nurbs_hull_perpendiculars(results_hull(r, 0), end);
+    double fp = end[1];
     for (size_t i = 0; i < ROWS; i++)
         list[i] = rows[i];
     for (int k = 0; k < 2; k++) {

@@ -47,40 +47,34 @@ static struct plot_hull hull_of(const struct results *r, int which, const nurbs_
     return (struct plot_hull){legend[which].text, 1, surface, pens[which]};
 }
 
-static const nurbs_surface *wetted_of(const struct results *r, int which)
-{
-    return nurbs_patches_get(nurbs_hull_wetted(results_hull(r, which)), 0);
-}
-
 void draw_lines(FILE *out, const struct results *r)
 {
     const nurbs_surface *surface[2];
     const struct plot_hull hulls[2] = {hull_of(r, 0, &surface[0]), hull_of(r, 1, &surface[1])};
-    const struct plot_lines lines = {problem_length(r->problem), 0, 20, 8, 3};
+    struct plot_lines lines = {.stations = 20, .waterlines = 8, .buttocks = 3};
     struct plot plot;
-    if (plot_lines_plan(&plot, FULL, &lines, 2, hulls))
+    if (!nurbs_hull_perpendiculars(results_hull(r, 0), lines.perpendicular) &&
+        plot_lines_plan(&plot, FULL, &lines, 2, hulls))
         plot_embed(&plot, out);
 }
 
 void draw_section_areas(FILE *out, const struct results *r)
 {
     enum { N = 141 };
-    const nurbs_surface *surface;
-    const struct plot_hull hull = hull_of(r, 0, &surface);
     struct plot_frame f = {.left = 62, .top = 34, .width = HALF - 76, .height = AREAS - 80};
-    double end[2], station[N], area[2][N];
+    double end[2], station[N], x[N], area[2][N];
     struct plot plot;
-    if (!plot_perpendiculars(&hull, 0, problem_length(r->problem), end))
+    if (nurbs_hull_perpendiculars(results_hull(r, 0), end))
         return;
     f.x = (struct plot_axis){.low = -1, .high = 21, .whole = true, .label = "station"};
     f.y = (struct plot_axis){.low = 0, .high = -INFINITY, .label = "section area, m²"};
+    for (size_t i = 0; i < N; i++) {
+        station[i] = -1 + 22.0 * (double)i / (N - 1);
+        x[i] = end[0] + (end[1] - end[0]) * station[i] / 20;
+    }
     for (int k = 0; k < 2; k++) {
-        const nurbs_surface *wetted = wetted_of(r, k);
-        const struct plot_hull below = {.n = 1, .surfaces = &wetted};
-        for (size_t i = 0; i < N; i++) {
-            station[i] = -1 + 22.0 * (double)i / (N - 1);
-            area[k][i] = plot_section_area(&below, end[0] + (end[1] - end[0]) * station[i] / 20);
-        }
+        if (nurbs_hull_section_areas(results_hull(r, k), N, x, area[k]))
+            return;
         plot_include(&f.y, N, area[k]);
     }
     f.y.high *= 1.05;
@@ -194,11 +188,11 @@ void draw_mode(FILE *out, const struct results *r, size_t mode)
 static struct plot_waves waves_of(const struct results *r, int which)
 {
     const struct waves *w = &r->waves[which && r->waves[1].elevation];
-    const nurbs_surface *wetted = wetted_of(r, which);
-    const struct plot_hull hull = {.n = 1, .surfaces = &wetted};
     struct plot_waves waves = {legend[which].text, w->nx, w->ny, 0, w->x0, w->dx, w->y0, w->dy,
                                w->elevation,       NULL};
-    plot_waterline(&hull, &waves.n_edge, &waves.edge);
+    /* without it the picture lacks the hull */
+    if (nurbs_hull_waterline(results_hull(r, which), &waves.n_edge, &waves.edge))
+        waves.n_edge = 0;
     return waves;
 }
 
