@@ -97,6 +97,44 @@ int cli_main(const char *name, int (*run)(int, char **), int argc, char **argv)
     return code == CLI_OK ? printed : code;
 }
 
+static int print_commands(const char *name, const char *purpose, size_t n,
+                          const struct cli_command *commands)
+{
+    char words[60];
+    int widest = 0;
+    printf("usage: %s COMMAND [OPTION]...\n\n%s\n\n", name, purpose);
+    for (int pass = 0; pass < 2; pass++)
+        for (size_t k = 0; k < n; k++) {
+            int length = snprintf(words, sizeof words, "%s%s%s", commands[k].name,
+                                  *commands[k].operands ? " " : "", commands[k].operands);
+            if (pass)
+                printf("  %-*s  %s\n", widest, words, commands[k].summary);
+            widest = length > widest ? length : widest;
+        }
+    printf("\n  %-*s  this text, or with a command its own\n  %-*s  version\n", widest, "--help",
+           widest, "--version");
+    return cli_print("\nExit status: 0 success, 1 failure, 2 wrong usage.\n");
+}
+
+int cli_dispatch(const char *name, const char *purpose, size_t n,
+                 const struct cli_command *commands, int argc, char **argv)
+{
+    static char title[60];
+    if (argc < 2)
+        return cli_usage("a command is missing");
+    if (strcmp(argv[1], "--help") == 0)
+        return print_commands(name, purpose, n, commands);
+    if (strcmp(argv[1], "--version") == 0)
+        return cli_version();
+    for (size_t k = 0; k < n; k++)
+        if (strcmp(argv[1], commands[k].name) == 0) {
+            snprintf(title, sizeof title, "%s %s", name, commands[k].name);
+            cli_set_name(title);
+            return commands[k].run(argc - 1, argv + 1);
+        }
+    return cli_usage("unknown command '%s'", argv[1]);
+}
+
 int cli_printed(void)
 {
     static bool told;

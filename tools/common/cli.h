@@ -14,6 +14,16 @@ enum { CLI_OK = 0, CLI_FAILED = 1, CLI_USAGE = 2 };
  * silent death; a standard stream that the caller closed does not become the first file opened. */
 int cli_main(const char *name, int (*run)(int, char **), int argc, char **argv);
 
+/* A subcommand, as the help of its command shows it: "name operands", then the summary. */
+struct cli_command {
+    const char *name, *operands, *summary;
+    int (*run)(int argc, char **argv);
+};
+/* Runs the subcommand that argv[1] names, with argv from there on, as "NAME SUBCOMMAND" in
+ * messages; NAME --help lists them under the purpose. Returns the exit code. */
+int cli_dispatch(const char *name, const char *purpose, size_t n,
+                 const struct cli_command *commands, int argc, char **argv);
+
 /* Flushes standard output: CLI_OK, or CLI_FAILED after the sentence with the reason, said once. */
 int cli_printed(void);
 

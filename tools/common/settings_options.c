@@ -6,12 +6,14 @@
 #include <string.h>
 
 /* What every command takes; its target is an int. */
+static const struct setting_word ALL_CORES[] = {{"all cores", 0}, {NULL, 0}};
 static const struct setting STANDARD[] = {
     {.option = "threads",
      .type = SETTING_INTEGER,
      .least = 1,
      .most = 4096,
-     .sentence = "threads to use; by default all cores"},
+     .words = ALL_CORES,
+     .sentence = "threads to use"},
     {.option = "help", .type = SETTING_HEADING, .sentence = "print this"},
     {.option = "version", .type = SETTING_HEADING, .sentence = "print the version"},
 };

@@ -6,87 +6,28 @@
 
 #include <igabem/solve.h>
 
-#include <getopt.h>
 #include <jansson.h>
-#include <stdlib.h>
-#include <string.h>
+#include <math.h>
 
-static const char help[] =
-    "usage: igabem check HULL [OPTION]...\n"
-    "\n"
-    "Refuses, with patch and place, a hull that cannot be solved: folds, points above the still\n"
-    "water or across the centre plane, open seams, vanishing normals. Otherwise says what it is "
-    "and\n"
-    "which formulation and filter the rules choose.\n"
-    "\n"
-    "  --level Z       z of the still water in the file (0); --draft T sets it by keel draft\n"
-    "  --length L      reference length, m (the file's, else the waterline's)\n"
-    "  --simplify TOL  knot removal over the length (1e-4 if the hull is cut), 0 none\n"
-    "  --json          one JSON object on standard output and nothing else\n"
-    "  --threads N     threads to use\n"
-    "  --help, --version\n"
-    "\n"
-    "Exit status: 0 usable, 1 not usable or failure, 2 wrong usage.\n";
+struct request {
+    struct hull_request hull;
+    bool json;
+};
 
-static int parse(int argc, char **argv, struct hull_request *request, bool *json, bool *done)
-{
-    static const struct option options[] = {
-        {"level", required_argument, NULL, 'z'},
-        {"draft", required_argument, NULL, 'd'},
-        {"length", required_argument, NULL, 'l'},
-        {"simplify", required_argument, NULL, 's'},
-        {"threads", required_argument, NULL, 'T'},
-        {"json", no_argument, NULL, 'J'},
-        {"help", no_argument, NULL, 'h'},
-        {"version", no_argument, NULL, 'V'},
-        {NULL, 0, NULL, 0},
-    };
-    int threads;
-    hull_request_init(request, NULL);
-    optind = 1;
-    opterr = 0;
-    for (int opt; (opt = getopt_long(argc, argv, "", options, NULL)) != -1;) {
-        bool ok = true;
-        switch (opt) {
-        case 'z':
-            ok = cli_parse_double(optarg, &request->level);
-            break;
-        case 'd':
-            ok = cli_parse_double(optarg, &request->draft) && request->draft > 0;
-            break;
-        case 'l':
-            ok = cli_parse_double(optarg, &request->length) && request->length > 0;
-            break;
-        case 's':
-            ok = cli_parse_double(optarg, &request->simplify) && request->simplify >= 0;
-            break;
-        case 'T':
-            ok = cli_parse_int(optarg, &threads) && threads > 0;
-            if (ok)
-                cli_set_threads(threads);
-            break;
-        case 'J':
-            *json = true;
-            break;
-        case 'h':
-            *done = true;
-            return cli_print(help);
-        case 'V':
-            *done = true;
-            return cli_version();
-        default:
-            return cli_usage("unknown option or missing value");
-        }
-        if (!ok)
-            return cli_usage("'%s' is not a value of that option", optarg);
-    }
-    if (optind >= argc)
-        return cli_usage("no HULL given");
-    if (optind + 1 < argc)
-        return cli_usage("more than one HULL: '%s'", argv[optind + 1]);
-    request->path = argv[optind];
-    return CLI_OK;
-}
+static const struct setting ROWS[] = {
+    HULL_FILE_ROW(struct request, hull),
+    HULL_WATER_ROWS(struct request, hull),
+    HULL_JSON_ROW(struct request, json),
+};
+static const struct settings TABLE = {
+    sizeof ROWS / sizeof *ROWS, ROWS,
+    .usage = "usage: igabem check HULL [OPTION]...\n"
+             "\n"
+             "Refuses, with patch and place, a hull that cannot be solved: folds, points above the "
+             "still\n"
+             "water or across the centre plane, open seams, vanishing normals. Otherwise says what "
+             "it is\n"
+             "and which formulation and filter the rules choose.\n\n"};
 
 static int print_json(const struct hull_input *input, const igabem_hull_info *info,
                       const igabem_options *options)
@@ -130,28 +71,35 @@ static int print_text(const struct hull_input *input, const igabem_hull_info *in
     return cli_printed();
 }
 
-int command_check(int argc, char **argv)
+static int check(const struct request *request)
 {
-    struct hull_request request;
     struct hull_input input;
-    bool json = false, done = false;
-    int code = parse(argc, argv, &request, &json, &done);
-    if (code != CLI_OK || done)
-        return code;
-    code = hull_input_read(&request, &input);
-    if (code != CLI_OK)
-        return code;
     igabem_hull_info info;
     igabem_options options;
+    int code = hull_input_read(&request->hull, &input);
+    if (code != CLI_OK)
+        return code;
     igabem_hull_get_info(input.hull, &info);
     igabem_options_init(&options);
     options.froude = 0.3;
     if (igabem_options_freeze(input.hull, &options))
-        code = cli_fail("%s: %s", request.path, igabem_last_error());
-    else if (json)
+        code = cli_fail("%s: %s", request->hull.path, igabem_last_error());
+    else if (request->json)
         code = print_json(&input, &info, &options);
     else
-        code = print_text(&input, &info, &options, request.path);
+        code = print_text(&input, &info, &options, request->hull.path);
     hull_input_free(&input);
+    return code;
+}
+
+int command_check(int argc, char **argv)
+{
+    struct request request = {0};
+    hull_request_init(&request.hull);
+    settings_start(&TABLE, &request);
+    int code = settings_options(argc, argv, &TABLE, &request, NULL, NULL);
+    if (code < 0)
+        code = check(&request);
+    settings_free(&TABLE, &request);
     return code;
 }

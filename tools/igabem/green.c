@@ -1,30 +1,32 @@
 /* igabem green: the Kelvin Green function's local and wave part at the points of a CSV table. */
 #include "cli.h"
 #include "commands.h"
+#include "hull_input.h"
 #include "json_result.h"
 
 #include <igabem/kelvin.h>
 
-#include <getopt.h>
 #include <jansson.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
-static const char help[] =
-    "usage: igabem green [OPTION]... < IN.csv > OUT.csv\n"
-    "\n"
-    "N and W of 4 pi G = -1/r + 1/r' + k0 (N + W) and their gradients, dimensionless.\n"
-    "IN.csv: header X,Y,Z, one point a line, Z <= 0; '#' starts a comment line.\n"
-    "OUT.csv: header X,Y,Z,N,N_X,N_Y,N_Z,W,W_X,W_Y,W_Z, 17 significant digits.\n"
-    "\n"
-    "  --bench         print nanoseconds per evaluation by region instead\n"
-    "  --json          one JSON object on standard output and nothing else\n"
-    "  --threads N     threads to use (the evaluation itself takes one)\n"
-    "  --help, --version\n"
-    "\n"
-    "Exit status: 0 success, 1 failure, 2 wrong usage.\n";
+struct request {
+    bool bench, json;
+};
+static const struct setting ROWS[] = {
+    HULL_ROW(struct request, "bench", SWITCH, bench,
+             .sentence = "print nanoseconds per evaluation by region instead"),
+    HULL_JSON_ROW(struct request, json),
+};
+static const struct settings TABLE = {
+    sizeof ROWS / sizeof *ROWS, ROWS,
+    .usage = "usage: igabem green [OPTION]... < IN.csv > OUT.csv\n"
+             "\n"
+             "N and W of 4 pi G = -1/r + 1/r' + k0 (N + W) and their gradients, dimensionless.\n"
+             "IN.csv: header X,Y,Z, one point a line, Z <= 0; '#' starts a comment line.\n"
+             "OUT.csv: header X,Y,Z,N,N_X,N_Y,N_Z,W,W_X,W_Y,W_Z, 17 significant digits.\n\n"};
 
 enum { COLUMNS = 11, BENCH_POINTS = 4000 };
 static const char *const names[COLUMNS] = {"X",   "Y", "Z",   "N",   "N_X", "N_Y",
@@ -206,35 +208,9 @@ static int run_bench(bool json)
 
 int command_green(int argc, char **argv)
 {
-    enum { BENCH = 256, JSON, THREADS, HELP, VERSION };
-    static const struct option options[] = {
-        {"bench", no_argument, NULL, BENCH},           {"json", no_argument, NULL, JSON},
-        {"threads", required_argument, NULL, THREADS}, {"help", no_argument, NULL, HELP},
-        {"version", no_argument, NULL, VERSION},       {NULL, 0, NULL, 0}};
-    bool bench = false, json = false;
-    int opt, threads;
-    opterr = 0;
-    while ((opt = getopt_long(argc, argv, "", options, NULL)) != -1)
-        switch (opt) {
-        case BENCH:
-            bench = true;
-            break;
-        case JSON:
-            json = true;
-            break;
-        case THREADS:
-            if (!cli_parse_int(optarg, &threads) || threads < 1)
-                return cli_usage("--threads: '%s', expected a positive integer", optarg);
-            cli_set_threads(threads);
-            break;
-        case HELP:
-            return cli_print(help);
-        case VERSION:
-            return cli_version();
-        default:
-            return cli_usage("unknown option or missing argument: '%s'", argv[optind - 1]);
-        }
-    if (optind < argc)
-        return cli_usage("unexpected argument '%s'", argv[optind]);
-    return bench ? run_bench(json) : run_table(json);
+    struct request request = {0};
+    int code = settings_options(argc, argv, &TABLE, &request, NULL, NULL);
+    if (code >= 0)
+        return code;
+    return request.bench ? run_bench(request.json) : run_table(request.json);
 }

@@ -4,9 +4,11 @@
 
 #include <math.h>
 
-void hull_request_init(struct hull_request *request, const char *path)
+const struct setting_word HULL_BY_RULE[] = {{"by rule", NAN}, {NULL, 0}};
+
+void hull_request_init(struct hull_request *request)
 {
-    *request = (struct hull_request){.path = path, .draft = NAN, .simplify = NAN, .length = NAN};
+    *request = (struct hull_request){.draft = NAN, .simplify = NAN, .length = NAN};
 }
 
 void hull_input_free(struct hull_input *input)

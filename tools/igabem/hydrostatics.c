@@ -6,119 +6,37 @@
 
 #include <nurbs/particulars.h>
 
-#include <getopt.h>
 #include <jansson.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
-#include <string.h>
-
-static const char help[] =
-    "usage: igabem hydrostatics HULL [OPTION]...\n"
-    "\n"
-    "Particulars of a hull at rest. HULL: a NURBS file (.json, .igs), cut at the still water if "
-    "it\n"
-    "crosses it. Lengths in metres; x as in the file, z up from the still water.\n"
-    "\n"
-    "  --draft T       keel draft amidships that sets the level\n"
-    "  --level Z       z of the still water in the file (0)\n"
-    "  --length L      length between perpendiculars (the file's, else the waterline's)\n"
-    "  --kg KG         height of the centre of gravity above the keel: GM_t too\n"
-    "  --density RHO   kg/m^3 (1000)\n"
-    "  --stations N    sections of the area curve (21)\n"
-    "  --simplify TOL  knot removal over the length after a cut (0: none)\n"
-    "  --json          one JSON object on standard output and nothing else\n"
-    "  --threads N     threads to use\n"
-    "  --help, --version\n"
-    "\n"
-    "Exit status: 0 success, 1 failure, 2 wrong usage.\n";
 
 struct request {
     struct hull_request hull;
     double kg, density;
-    int stations;
+    size_t stations;
     bool json;
 };
 
-static int take(int opt, struct request *request, bool *done)
-{
-    double *target = NULL;
-    int threads;
-    switch (opt) {
-    case 'd':
-        target = &request->hull.draft;
-        break;
-    case 'z':
-        if (!cli_parse_double(optarg, &request->hull.level))
-            return cli_usage("--level: '%s', expected a number", optarg);
-        return CLI_OK;
-    case 'l':
-        target = &request->hull.length;
-        break;
-    case 'k':
-        target = &request->kg;
-        break;
-    case 'r':
-        target = &request->density;
-        break;
-    case 's':
-        if (!cli_parse_int(optarg, &request->stations) || request->stations < 2 ||
-            request->stations > 10001)
-            return cli_usage("--stations: '%s', expected a count from 2 to 10001", optarg);
-        return CLI_OK;
-    case 'm':
-        if (!cli_parse_double(optarg, &request->hull.simplify) || request->hull.simplify < 0)
-            return cli_usage("--simplify: '%s', expected a number >= 0", optarg);
-        return CLI_OK;
-    case 'T':
-        if (!cli_parse_int(optarg, &threads) || threads < 1)
-            return cli_usage("--threads: '%s', expected a count", optarg);
-        cli_set_threads(threads);
-        return CLI_OK;
-    case 'J':
-        request->json = true;
-        return CLI_OK;
-    case 'h':
-        *done = true;
-        return cli_print(help);
-    case 'V':
-        *done = true;
-        return cli_version();
-    default:
-        return cli_usage("unknown option or missing value");
-    }
-    if (!cli_parse_double(optarg, target) || !(*target > 0))
-        return cli_usage("'%s', expected a positive number", optarg);
-    return CLI_OK;
-}
-
-static int parse(int argc, char **argv, struct request *request, bool *done)
-{
-    static const struct option options[] = {
-        {"draft", required_argument, NULL, 'd'},    {"level", required_argument, NULL, 'z'},
-        {"length", required_argument, NULL, 'l'},   {"kg", required_argument, NULL, 'k'},
-        {"density", required_argument, NULL, 'r'},  {"stations", required_argument, NULL, 's'},
-        {"simplify", required_argument, NULL, 'm'}, {"threads", required_argument, NULL, 'T'},
-        {"json", no_argument, NULL, 'J'},           {"help", no_argument, NULL, 'h'},
-        {"version", no_argument, NULL, 'V'},        {NULL, 0, NULL, 0},
-    };
-    *request = (struct request){.kg = NAN, .density = 1000.0, .stations = 21};
-    hull_request_init(&request->hull, NULL);
-    request->hull.simplify = 0.0;
-    optind = 1;
-    opterr = 0;
-    for (int opt; (opt = getopt_long(argc, argv, "", options, NULL)) != -1;) {
-        int code = take(opt, request, done);
-        if (code != CLI_OK || *done)
-            return code;
-    }
-    if (optind >= argc)
-        return cli_usage("no HULL given");
-    if (optind + 1 < argc)
-        return cli_usage("more than one HULL: '%s'", argv[optind + 1]);
-    request->hull.path = argv[optind];
-    return CLI_OK;
-}
+static const struct setting_word UNKNOWN[] = {{"not known", NAN}, {NULL, 0}};
+#define ROW(...) HULL_ROW(struct request, __VA_ARGS__)
+static const struct setting ROWS[] = {
+    HULL_FILE_ROW(struct request, hull),
+    HULL_WATER_ROWS(struct request, hull),
+    ROW("kg", NUMBER, kg, .sentence = "height of the centre of gravity above the keel, m: GM_t too",
+        SETTING_ABOVE(0), .words = UNKNOWN),
+    ROW("density", NUMBER, density, .sentence = "kg/m^3", SETTING_ABOVE(0)),
+    ROW("stations", COUNT, stations, .sentence = "sections of the area curve",
+        SETTING_FROM(2, 10001)),
+    HULL_JSON_ROW(struct request, json),
+};
+static const struct settings TABLE = {
+    sizeof ROWS / sizeof *ROWS, ROWS,
+    .usage = "usage: igabem hydrostatics HULL [OPTION]...\n"
+             "\n"
+             "Particulars of a hull at rest. HULL: a NURBS file (.json, .igs), cut at the still "
+             "water if it\n"
+             "crosses it. Lengths in metres; x as in the file, z up from the still water.\n\n"};
 
 /* What the page shows. */
 struct page {
@@ -130,11 +48,11 @@ struct page {
     double *x, *area; /* [stations] */
 };
 
-static const struct row {
+static const struct figure {
     const char *key, *unit, *text;
     size_t at;   /* offset of a double in the page */
     bool afloat; /* left out for a body without a waterline */
-} rows[] = {
+} FIGURES[] = {
 #define OF_HULL(member) offsetof(struct page, hull.member)
 #define AT_REST(member) offsetof(struct page, hull.hydrostatics.member)
     {"length", "m", "reference length (Lpp)", OF_HULL(length), false},
@@ -178,19 +96,19 @@ static const struct row {
     {"bulb_ratio", "", "section at the fore perpendicular over the largest", OF_HULL(bulb_ratio),
      true},
 };
-enum { ROWS = sizeof rows / sizeof *rows };
+enum { N_FIGURES = sizeof FIGURES / sizeof *FIGURES };
 
-static bool row_value(const struct page *page, size_t k, double *value)
+static bool figure_value(const struct page *page, size_t k, double *value)
 {
-    *value = *(const double *)(const void *)((const char *)page + rows[k].at);
-    return !rows[k].afloat || !isnan(page->hull.waterline_length);
+    *value = *(const double *)(const void *)((const char *)page + FIGURES[k].at);
+    return !FIGURES[k].afloat || !isnan(page->hull.waterline_length);
 }
 
 /* Creates x and area of the page. */
 static bool fill_page(const struct request *request, const struct hull_input *input,
                       struct page *page)
 {
-    size_t n = page->stations = (size_t)request->stations;
+    size_t n = page->stations = request->stations;
     igabem_hull_info info;
     igabem_hull_get_info(input->hull, &info);
     page->path = request->hull.path;
@@ -214,9 +132,9 @@ static int print_json(const igabem_hull *hull, const struct page *page)
 {
     json_t *json = json_object(), *curve = json_array(), *warnings = json_array();
     double value;
-    for (size_t k = 0; k < ROWS; k++)
-        if (row_value(page, k, &value))
-            json_result_set(json, rows[k].key, isfinite(value) ? json_real(value) : json_null());
+    for (size_t k = 0; k < N_FIGURES; k++)
+        if (figure_value(page, k, &value))
+            json_result_set(json, FIGURES[k].key, isfinite(value) ? json_real(value) : json_null());
     for (size_t i = 0; i < page->stations; i++)
         json_result_append(curve, json_pack("{s:f,s:f}", "x", page->x[i], "area", page->area[i]));
     json_result_set(json, "section_areas", curve);
@@ -232,31 +150,40 @@ static int print_table(const struct page *page)
 {
     double value;
     printf("%s: %s\n\n", page->path, page->note);
-    for (size_t k = 0; k < ROWS; k++)
-        if (row_value(page, k, &value) && isfinite(value))
-            printf("%-22s %14.7g %-7s %s\n", rows[k].key, value, rows[k].unit, rows[k].text);
+    for (size_t k = 0; k < N_FIGURES; k++)
+        if (figure_value(page, k, &value) && isfinite(value))
+            printf("%-22s %14.7g %-7s %s\n", FIGURES[k].key, value, FIGURES[k].unit,
+                   FIGURES[k].text);
     printf("\nsection areas, both sides\n%14s %14s\n", "x m", "m^2");
     for (size_t i = 0; i < page->stations; i++)
         printf("%14.7g %14.7g\n", page->x[i], page->area[i]);
     return cli_printed();
 }
 
-int command_hydrostatics(int argc, char **argv)
+static int show(const struct request *request)
 {
-    struct request request;
     struct hull_input input;
     struct page page = {0};
-    bool done = false;
-    int code = parse(argc, argv, &request, &done);
-    if (code != CLI_OK || done)
-        return code;
-    code = hull_input_read(&request.hull, &input);
+    int code = hull_input_read(&request->hull, &input);
     if (code != CLI_OK)
         return code;
-    code = !fill_page(&request, &input, &page) ? CLI_FAILED
-           : request.json                      ? print_json(input.hull, &page)
-                                               : print_table(&page);
+    code = !fill_page(request, &input, &page) ? CLI_FAILED
+           : request->json                    ? print_json(input.hull, &page)
+                                              : print_table(&page);
     free(page.x);
     hull_input_free(&input);
+    return code;
+}
+
+int command_hydrostatics(int argc, char **argv)
+{
+    struct request request = {.kg = NAN, .density = 1000.0, .stations = 21};
+    hull_request_init(&request.hull);
+    request.hull.simplify = 0.0;
+    settings_start(&TABLE, &request);
+    int code = settings_options(argc, argv, &TABLE, &request, NULL, NULL);
+    if (code < 0)
+        code = show(&request);
+    settings_free(&TABLE, &request);
     return code;
 }

@@ -10,7 +10,6 @@
 #include <stdbool.h>
 
 struct solve_request {
-    char *path;
     struct hull_request hull;
     igabem_options options;
     int formulation; /* as the option has it */

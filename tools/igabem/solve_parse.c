@@ -33,11 +33,7 @@ static const struct setting_word BY_RULE[] = {{"by rule", NAN}, {NULL, 0}};
 static const struct setting_word FILTER[] = {{"none", INFINITY}, {"by rule", NAN}, {NULL, 0}};
 static const struct setting_word NO_LADDER[] = {{"none", 1}, {NULL, 0}};
 
-#define ROW(name, kind, member, ...)                                                               \
-    {                                                                                              \
-        .option = (name), .type = SETTING_##kind,                                                  \
-        .offset = offsetof(struct solve_request, member), __VA_ARGS__                              \
-    }
+#define ROW(...) HULL_ROW(struct solve_request, __VA_ARGS__)
 #define HEADING(text)                                                                              \
     {                                                                                              \
         .type = SETTING_HEADING, .sentence = (text)                                                \
@@ -46,7 +42,7 @@ static const struct setting_word NO_LADDER[] = {{"none", 1}, {NULL, 0}};
 #define INT_SWITCH .size = sizeof(int)
 
 static const struct setting ROWS[] = {
-    ROW("HULL", TEXT, path, .sentence = "the hull's file", .required = true),
+    HULL_FILE_ROW(struct solve_request, hull),
     ROW("fr", NUMBERS, fr,
         .sentence = "Froude number on the reference length: 0.35, 0.2,0.3 or 0.2:0.45:0.01",
         SETTING_ABOVE(0), .count = offsetof(struct solve_request, n_fr)),
@@ -115,16 +111,7 @@ static const struct setting ROWS[] = {
         .sentence = "largest wave angle of the resistance integral", SETTING_ABOVE(0)),
 
     HEADING("Hull and water:"),
-    ROW("length", NUMBER, hull.length,
-        .sentence = "reference length, m; by rule the file's, else the waterline's",
-        SETTING_ABOVE(0), .words = BY_RULE),
-    ROW("level", NUMBER, hull.level, .sentence = "z of the still water in the file, m"),
-    ROW("draft", NUMBER, hull.draft, .sentence = "keel draft amidships that sets it instead, m",
-        SETTING_ABOVE(0), .words = BY_RULE),
-    ROW("simplify", NUMBER, hull.simplify,
-        .sentence =
-            "knot removal tolerance over the length; 0 none; by rule 1e-4 if the hull is cut",
-        SETTING_FROM(0, INFINITY), .words = BY_RULE),
+    HULL_WATER_ROWS(struct solve_request, hull),
     ROW("gravity", NUMBER, options.gravity, .sentence = "m/s^2", SETTING_ABOVE(0)),
     ROW("density", NUMBER, options.density, .sentence = "kg/m^3", SETTING_ABOVE(0)),
     ROW("viscosity", NUMBER, viscosity, .sentence = "m^2/s, for the total resistance by ITTC-57",
@@ -149,7 +136,7 @@ static const struct setting ROWS[] = {
         .sentence = "C_p on the side and the bottom of the hull: .svg .png .pdf"),
 
     HEADING("Output:"),
-    ROW("json", SWITCH, json, .sentence = "one JSON object on standard output and nothing else"),
+    HULL_JSON_ROW(struct solve_request, json),
 };
 
 /* What the Kelvin kernel alone has. */
@@ -190,7 +177,6 @@ static const struct settings TABLE = {
 /* From the options as they were read to what is solved. */
 static int complete(struct solve_request *r)
 {
-    r->hull.path = r->path;
     r->hull.unbounded = r->options.kernel == IGABEM_KERNEL_RANKINE;
     r->options.elements_u = r->elements[0];
     r->options.elements_v = r->elements[1];
@@ -219,7 +205,7 @@ int solve_parse(int argc, char **argv, struct solve_request *request)
                                       .viscosity = 1.1386e-6,
                                       .waves_grid = {200, 60},
                                       .waves_box = {-3.0, 0.25, 0.0, 1.0}};
-    hull_request_init(&request->hull, NULL);
+    hull_request_init(&request->hull);
     igabem_options_init(&request->options);
     request->options.sensitivity = 1;
     request->elements[0] = request->options.elements_u;
