@@ -16,69 +16,6 @@ static size_t count_phase(const struct bayesopt *bo, bayesopt_phase phase)
     return count;
 }
 
-static double square_distance(size_t d, const double *a, const double *b)
-{
-    double sum = 0;
-    for (size_t j = 0; j < d; j++)
-        sum += (a[j] - b[j]) * (a[j] - b[j]);
-    return sum;
-}
-
-/* Puts first those rows that cover the box by themselves: each next one is the farthest from all
- * before. With two levels the first of them are evaluated at the dear one too. */
-static void cover_first(size_t n, size_t d, double *x)
-{
-    for (size_t k = 1; k < n; k++) {
-        size_t farthest = k;
-        double most = -1;
-        for (size_t i = k; i < n; i++) {
-            double nearest = INFINITY;
-            for (size_t c = 0; c < k; c++)
-                nearest = fmin(nearest, square_distance(d, x + i * d, x + c * d));
-            if (nearest > most) {
-                most = nearest;
-                farthest = i;
-            }
-        }
-        for (size_t j = 0; j < d && farthest != k; j++) {
-            double kept = x[k * d + j];
-            x[k * d + j] = x[farthest * d + j];
-            x[farthest * d + j] = kept;
-        }
-    }
-}
-
-static bayesopt_status make_design(struct bayesopt *bo)
-{
-    size_t n = bo->options.initial_n, d = bo->d;
-    bayesopt_status status = BAYESOPT_OK;
-    if (bo->design)
-        return BAYESOPT_OK;
-    double *design = malloc(n * d * sizeof *design);
-    if (!design)
-        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
-    if (bo->initial_x) {
-        for (size_t i = 0; i < n; i++)
-            problem_to_unit(bo, bo->initial_x + i * d, design + i * d);
-    } else {
-        bayesopt_design_options options;
-        bayesopt_design_options_init(&options);
-        options.seed = bo->options.seed;
-        options.n_constraints = bo->region.m;
-        options.constraint = bo->region.constraint;
-        options.constraint_user_data = bo->region.data;
-        status = bayesopt_design(bo->options.initial_kind, n, d, &options, design);
-        if (!status && bo->options.n_levels > 1)
-            cover_first(n, d, design);
-    }
-    if (status) {
-        free(design);
-        return status;
-    }
-    bo->design = design;
-    return store_put_design(bo);
-}
-
 /* Proposals in a row, from the end of the history, that did not lower the best feasible value. */
 static size_t proposals_without_improvement(const struct bayesopt *bo)
 {
@@ -99,7 +36,10 @@ static size_t proposals_without_improvement(const struct bayesopt *bo)
 
 static bayesopt_status check_stop(const struct bayesopt *bo)
 {
-    if (bo->n_points >= problem_budget(bo))
+    size_t spent = 0;
+    for (size_t i = 0; i < bo->n_points; i++)
+        spent += !bo->points[i].outside;
+    if (spent >= problem_budget(bo))
         return BAYESOPT_STOP_BUDGET;
     if (bo->options.stop_no_improvement &&
         proposals_without_improvement(bo) >= bo->options.stop_no_improvement)
@@ -109,7 +49,7 @@ static bayesopt_status check_stop(const struct bayesopt *bo)
 
 static bayesopt_status new_point(struct bayesopt *bo, struct point **out)
 {
-    size_t d = bo->d, given = count_phase(bo, BAYESOPT_PHASE_INITIAL);
+    size_t d = bo->d, given = initial_told(bo) + count_phase(bo, BAYESOPT_PHASE_INITIAL);
     uint64_t id = bo->n_points ? bo->points[bo->n_points - 1].id + 1 : 1;
     bayesopt_phase phase = BAYESOPT_PHASE_INITIAL;
     int level = (int)bo->options.n_levels - 1;
@@ -125,20 +65,19 @@ static bayesopt_status new_point(struct bayesopt *bo, struct point **out)
     if (!u)
         return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
     double *x = u + d;
-    size_t row = given % bo->options.initial_n;
-    if (given < problem_initial(bo)) {
-        status = make_design(bo);
-        if (!status)
-            memcpy(u, bo->design + row * d, d * sizeof *u);
-        if (given < bo->options.initial_n)
-            level = 0;
-    } else {
+    bool designed = given < problem_initial(bo);
+    if (designed)
+        status = initial_point(bo, given % bo->options.initial_n, u, x);
+    /* In a space of few points the design may have one twice. */
+    if (!status && designed && bo->n_discrete == d && history_was_asked(bo, u))
+        designed = false;
+    if (designed && given < bo->options.initial_n)
+        level = 0;
+    if (!status && !designed) {
         status = strategy_propose(bo, id, u, &phase, &level);
+        problem_from_unit(bo, u, x);
     }
     if (!status) {
-        problem_from_unit(bo, u, x);
-        if (phase == BAYESOPT_PHASE_INITIAL && bo->initial_x)
-            memcpy(x, bo->initial_x + row * d, d * sizeof *x);
         *out = history_append(bo, id, x, phase);
         if (*out)
             (*out)->level = level;

@@ -71,6 +71,12 @@ static bayesopt_status check_options(size_t d, const bayesopt_gp_options *o)
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
                              "gp: %zu starts of %zu evaluations, expected 1 to %d of each",
                              o->starts, o->evaluations, MOST_SEARCH);
+    for (size_t j = 0; j < d && o->categorical && o->mean == BAYESOPT_MEAN_LINEAR; j++)
+        if (o->categorical[j])
+            return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
+                                 "gp: variable %zu is categorical, which has no slope for a linear "
+                                 "mean",
+                                 j);
     if (o->scales != BAYESOPT_SCALES_TIED)
         return BAYESOPT_OK;
     if (!o->group)
@@ -104,15 +110,23 @@ bayesopt_status bayesopt_gp_create(size_t d, const bayesopt_gp_options *options,
     gp->d = d;
     gp->options = *options;
     gp->options.group = NULL;
+    gp->options.categorical = NULL;
     transform_reset(&gp->transform);
     gp->lengthscale = calloc(d, sizeof *gp->lengthscale);
     gp->gram = calloc((d + 1) * (d + 1), sizeof *gp->gram);
     gp->beta = calloc(d + 1, sizeof *gp->beta);
     gp->group = calloc(d, sizeof *gp->group);
-    if (!gp->lengthscale || !gp->gram || !gp->beta || !gp->group) {
+    if (options->categorical) {
+        gp->categorical = calloc(d, sizeof *gp->categorical);
+        gp->jump = calloc(d, sizeof *gp->jump);
+    }
+    if (!gp->lengthscale || !gp->gram || !gp->beta || !gp->group ||
+        (options->categorical && (!gp->categorical || !gp->jump))) {
         bayesopt_gp_free(gp);
         return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "gp: out of memory");
     }
+    if (options->categorical)
+        memcpy(gp->categorical, options->categorical, d * sizeof *gp->categorical);
     if (options->scales == BAYESOPT_SCALES_TIED)
         memcpy(gp->group, options->group, d * sizeof *gp->group);
     *out = gp;
@@ -124,11 +138,13 @@ void bayesopt_gp_free(bayesopt_gp *gp)
     if (!gp)
         return;
     transform_free(&gp->transform);
-    double *arrays[] = {gp->lengthscale, gp->gram, gp->beta,  gp->x,      gp->y,      gp->variance,
-                        gp->scaled,      gp->t,    gp->alpha, gp->factor, gp->solved, gp->basis};
+    double *arrays[] = {gp->lengthscale, gp->gram,   gp->beta, gp->x,     gp->y,
+                        gp->variance,    gp->scaled, gp->t,    gp->alpha, gp->factor,
+                        gp->solved,      gp->basis,  gp->jump};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         free(arrays[i]);
     free(gp->group);
+    free(gp->categorical);
     free(gp);
 }
 
@@ -232,9 +248,19 @@ double gp_noise(const struct bayesopt_gp *gp, size_t i, double noise)
 
 void gp_scale_inputs(struct bayesopt_gp *gp, const double *lengthscale)
 {
-    for (size_t j = 0; j < gp->d; j++)
+    for (size_t j = 0; j < gp->d; j++) {
+        bool categorical = gp->categorical && gp->categorical[j];
+        double scale = categorical ? 1 : lengthscale[j];
+        if (categorical)
+            gp->jump[j] = 1 / (lengthscale[j] * lengthscale[j]);
         for (size_t i = 0; i < gp->n; i++)
-            gp->scaled[j * gp->capacity + i] = gp->x[i * gp->d + j] / lengthscale[j];
+            gp->scaled[j * gp->capacity + i] = gp->x[i * gp->d + j] / scale;
+    }
+}
+
+double gp_scaled(const struct bayesopt_gp *gp, size_t j, double x)
+{
+    return gp->categorical && gp->categorical[j] ? x : x / gp->lengthscale[j];
 }
 
 void gp_covariance(const struct bayesopt_gp *gp, double signal, double *k, double *w)
@@ -244,7 +270,7 @@ void gp_covariance(const struct bayesopt_gp *gp, double signal, double *k, doubl
         for (size_t j = 0; j < gp->d; j++)
             point[j] = gp->scaled[j * gp->capacity + i];
         double *row = k + i * gp->capacity, *slope = w ? w + i * gp->capacity : NULL;
-        kernel_distances(i + 1, gp->d, gp->scaled, gp->capacity, point, row);
+        kernel_distances(i + 1, gp->d, gp->scaled, gp->capacity, point, gp->jump, row);
         kernel_values(gp->options.kernel, i + 1, row, row, slope);
         matrix_scale(i + 1, signal, row);
         if (slope)
@@ -384,7 +410,7 @@ bool gp_likelihood_gradient(const struct bayesopt_gp *gp, const struct gp_theta 
             p[k] = (gp->alpha[i] * gp->alpha[k] - p[k]) * w[k];
         for (size_t j = 0; j < d; j++)
             point[j] = gp->scaled[j * ld + i];
-        kernel_weighted_squares(i, d, gp->scaled, ld, point, p, gradient);
+        kernel_weighted_squares(i, d, gp->scaled, ld, point, gp->jump, p, gradient);
         /* alpha' K alpha = alpha' (t - m) and tr K^-1 K = n leave only the diagonal part of K. */
         double noise = gp_noise(gp, i, theta->noise) + gp->jitter;
         double mean = gp->p ? 0 : gp->fixed_mean;
@@ -451,8 +477,8 @@ static bool append_row(bayesopt_gp *gp, size_t i)
     size_t ld = gp->capacity;
     double *row = gp->factor + i * ld, point[BAYESOPT_MOST_VARIABLES];
     for (size_t j = 0; j < gp->d; j++)
-        point[j] = gp->scaled[j * ld + i] = gp->x[i * gp->d + j] / gp->lengthscale[j];
-    kernel_distances(i, gp->d, gp->scaled, ld, point, row);
+        point[j] = gp->scaled[j * ld + i] = gp_scaled(gp, j, gp->x[i * gp->d + j]);
+    kernel_distances(i, gp->d, gp->scaled, ld, point, gp->jump, row);
     kernel_values(gp->options.kernel, i, row, row, NULL);
     matrix_scale(i, gp->signal, row);
     matrix_forward(i, gp->factor, ld, row);

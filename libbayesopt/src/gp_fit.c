@@ -585,6 +585,7 @@ static bayesopt_status fit_cold(bayesopt_gp *gp, const size_t *isotropic_groups)
         variance[k] = gp->variance[i];
     }
     options.group = gp->group;
+    options.categorical = gp->categorical;
     bayesopt_status status = bayesopt_gp_create(d, &options, &part);
     if (!status) {
         part->is_cancelled = gp->is_cancelled;

@@ -9,7 +9,8 @@
 struct bayesopt_gp {
     size_t d;
     bayesopt_gp_options options;
-    size_t *group; /* [d] with BAYESOPT_SCALES_TIED */
+    size_t *group;     /* [d] with BAYESOPT_SCALES_TIED */
+    bool *categorical; /* [d] or NULL */
 
     size_t n, capacity;
     double *x;        /* [n x d] */
@@ -25,7 +26,8 @@ struct bayesopt_gp {
     /* Conditioning. H is the basis of the mean, n x p; p = 0 (fixed), 1 or d + 1. */
     bool conditioned;
     size_t p;
-    double *scaled; /* [d x capacity] x_ij/l_j, variable by variable */
+    double *scaled; /* [d x capacity] x_ij/l_j, of a categorical variable x_ij; by variables */
+    double *jump;   /* [d] 1/l_j^2 of a categorical variable, else 0; NULL: there are none */
     double *t;      /* [n] modelled outputs */
     double *factor; /* [capacity x capacity] L of K = L L' */
     double *alpha;  /* [n] K^-1 (t - H beta) */
@@ -54,6 +56,8 @@ void gp_covariance(const struct bayesopt_gp *gp, double signal, double *k, doubl
 /* Noise variance of point i in modelled squared units. */
 double gp_noise(const struct bayesopt_gp *gp, size_t i, double noise);
 void gp_scale_inputs(struct bayesopt_gp *gp, const double *lengthscale);
+/* Coordinate j of a point as it stands in gp->scaled. */
+double gp_scaled(const struct bayesopt_gp *gp, size_t j, double x);
 /* Row of H at a point. */
 void gp_basis_row(const struct bayesopt_gp *gp, const double *x, double *row);
 /* Everything from the factorisation on, with the jitter ladder. false: not positive definite. */

@@ -33,7 +33,8 @@ static void write_all(const bayesopt_gp *gp, FILE *file)
     double state[] = {gp->has_parameters, gp->isotropic,  gp->wide,         gp->signal,
                       gp->noise,          gp->fixed_mean, gp->log_posterior};
     double map[] = {t->kind, t->shift, t->unit, t->lambda, (double)t->n, t->offset, t->scale};
-    fprintf(file, "bayesopt-gp 1\n");
+    /* Version 1 knows no categories, and files without keep it. */
+    fprintf(file, "bayesopt-gp %d\n", gp->categorical ? 2 : 1);
     put(file, "head", sizeof head / sizeof *head, head);
     put(file, "prior", sizeof prior / sizeof *prior, prior);
     put(file, "state", sizeof state / sizeof *state, state);
@@ -42,6 +43,12 @@ static void write_all(const bayesopt_gp *gp, FILE *file)
     for (size_t j = 0; j < gp->d; j++)
         fprintf(file, " %zu", gp->group[j]);
     fputc('\n', file);
+    if (gp->categorical) {
+        fprintf(file, "categorical");
+        for (size_t j = 0; j < gp->d; j++)
+            fprintf(file, " %d", gp->categorical[j]);
+        fputc('\n', file);
+    }
     put(file, "map", sizeof map / sizeof *map, map);
     put(file, "knots", t->n, t->knots);
     put(file, "scores", t->n, t->scores);
@@ -200,14 +207,29 @@ static bool read_state(FILE *file, bayesopt_gp *gp, size_t *group)
     return true;
 }
 
+/* Whether each variable is categorical, of files that have that line. */
+static bool read_categorical(FILE *file, bayesopt_gp *gp)
+{
+    double *values = malloc(gp->d * sizeof *values);
+    gp->categorical = calloc(gp->d, sizeof *gp->categorical);
+    gp->jump = calloc(gp->d, sizeof *gp->jump);
+    bool ok = values && gp->categorical && gp->jump && get(file, "categorical", gp->d, values);
+    for (size_t j = 0; j < gp->d && ok; j++) {
+        ok = whole(values[j], 1);
+        gp->categorical[j] = values[j] != 0;
+    }
+    free(values);
+    return ok;
+}
+
 static bayesopt_status read_all(FILE *file, bayesopt_gp **out)
 {
-    double head[8];
+    double head[8], version;
     bayesopt_gp_options options;
     bayesopt_gp *gp = NULL;
-    if (!get(file, "bayesopt-gp", 1, head) || head[0] != 1 || !get(file, "head", 8, head) ||
-        !whole(head[0], BAYESOPT_MOST_VARIABLES) || !whole(head[1], BAYESOPT_MOST_POINTS) ||
-        !read_options(file, head, &options))
+    if (!get(file, "bayesopt-gp", 1, &version) || (version != 1 && version != 2) ||
+        !get(file, "head", 8, head) || !whole(head[0], BAYESOPT_MOST_VARIABLES) ||
+        !whole(head[1], BAYESOPT_MOST_POINTS) || !read_options(file, head, &options))
         return BAYESOPT_ERROR_FORMAT;
     /* Groups come later in the file; until they are read every variable is its own. */
     bayesopt_scales scales = options.scales;
@@ -217,8 +239,8 @@ static bayesopt_status read_all(FILE *file, bayesopt_gp **out)
     if (status)
         return status == BAYESOPT_ERROR_MEMORY ? status : BAYESOPT_ERROR_FORMAT;
     gp->options.scales = scales;
-    bool ok = read_state(file, gp, gp->group) && read_map(file, &gp->transform) &&
-              read_data(file, gp, (size_t)head[1]);
+    bool ok = read_state(file, gp, gp->group) && (version < 2 || read_categorical(file, gp)) &&
+              read_map(file, &gp->transform) && read_data(file, gp, (size_t)head[1]);
     if (ok && gp->has_parameters && gp->n)
         ok = gp_condition(gp);
     if (!ok) {

@@ -44,13 +44,13 @@ static void predict_block(const bayesopt_gp *gp, size_t m, const double *x, doub
     for (size_t c = 0; c < m; c++) {
         mean[c] = prior_mean(gp, x + c * d);
         for (size_t j = 0; j < d; j++)
-            columns[j * BLOCK + c] = x[c * d + j] / gp->lengthscale[j];
+            columns[j * BLOCK + c] = gp_scaled(gp, j, x[c * d + j]);
     }
     for (size_t i = 0; i < n; i++) {
         double *row = k + i * BLOCK;
         for (size_t j = 0; j < d; j++)
             point[j] = gp->scaled[j * gp->capacity + i];
-        kernel_distances(m, d, columns, BLOCK, point, row);
+        kernel_distances(m, d, columns, BLOCK, point, gp->jump, row);
         kernel_values(gp->options.kernel, m, row, row, NULL);
         matrix_scale(m, gp->signal, row);
         matrix_axpy(m, gp->alpha[i], row, mean);
@@ -113,8 +113,8 @@ bayesopt_status bayesopt_gp_predict_gradient(const bayesopt_gp *gp, const double
     size_t n = gp->n, d = gp->d, p = gp->p, ld = gp->capacity;
     double *k = work, *w = work + n, point[BAYESOPT_MOST_VARIABLES], r[BAYESOPT_MOST_VARIABLES + 1];
     for (size_t j = 0; j < d; j++)
-        point[j] = x[j] / gp->lengthscale[j];
-    kernel_distances(n, d, gp->scaled, ld, point, k);
+        point[j] = gp_scaled(gp, j, x[j]);
+    kernel_distances(n, d, gp->scaled, ld, point, gp->jump, k);
     kernel_values(gp->options.kernel, n, k, k, w);
     matrix_scale(n, gp->signal, k);
     matrix_scale(n, gp->signal, w);
@@ -132,6 +132,10 @@ bayesopt_status bayesopt_gp_predict_gradient(const bayesopt_gp *gp, const double
     for (size_t j = 0; j < d; j++) {
         const double *column = gp->scaled + j * ld;
         double slope = 0, spread = 0;
+        if (gp->categorical && gp->categorical[j]) { /* a step has no slope */
+            dmean[j] = dvar[j] = 0;
+            continue;
+        }
 #pragma omp simd reduction(+ : slope, spread)
         for (size_t i = 0; i < n; i++) {
             double dk = w[i] * (column[i] - point[j]);

@@ -45,6 +45,7 @@ struct point *history_append(struct bayesopt *bo, uint64_t id, const double *x,
     }
     memcpy(p->x, x, bo->d * sizeof *x);
     problem_to_unit(bo, x, p->u);
+    p->outside = !problem_inside(bo, x);
     p->level = (int)bo->options.n_levels - 1;
     bo->n_points++;
     bo->surrogates.fitted = false;
@@ -63,6 +64,18 @@ struct point *history_find(struct bayesopt *bo, uint64_t id)
             high = middle;
     }
     return low < bo->n_points && bo->points[low].id == id ? &bo->points[low] : NULL;
+}
+
+bool history_was_asked(const struct bayesopt *bo, const double *u)
+{
+    for (size_t i = 0; i < bo->n_points; i++) {
+        double most = bo->points[i].state == BAYESOPT_STATE_LOST ? INFINITY : 0;
+        for (size_t j = 0; j < bo->d; j++)
+            most = fmax(most, fabs(bo->points[i].u[j] - u[j]));
+        if (most <= 1e-7)
+            return true;
+    }
+    return false;
 }
 
 size_t history_count_state(const struct bayesopt *bo, bayesopt_state state)
@@ -90,7 +103,7 @@ bool point_is_dear(const struct bayesopt *bo, const struct point *point)
 
 bool point_counts(const struct bayesopt *bo, const struct point *point)
 {
-    return point->state == BAYESOPT_STATE_DONE && point_is_dear(bo, point);
+    return point->state == BAYESOPT_STATE_DONE && point_is_dear(bo, point) && !point->outside;
 }
 
 bool point_judged(const struct point *point)
@@ -142,7 +155,7 @@ bayesopt_status bayesopt_best_told(const bayesopt *bo, double *x, double *f, uin
     if (x)
         memcpy(x, bo->points[best].x, bo->d * sizeof *x);
     if (f)
-        *f = bo->points[best].f;
+        *f = problem_sign(bo) * bo->points[best].f;
     if (id)
         *id = bo->points[best].id;
     return feasible ? BAYESOPT_OK : BAYESOPT_NONE_FEASIBLE;
@@ -167,12 +180,13 @@ bayesopt_status bayesopt_get(const bayesopt *bo, size_t i, bayesopt_point *point
         .state = p->state,
         .level = p->level,
         .x = p->x,
-        .f = p->f,
+        .f = problem_sign(bo) * p->f,
         .constraints = p->constraints,
         .gradient = p->gradient,
         .variance = p->variance,
         .note = p->note ? p->note : "",
         .feasible = point_feasible(bo, p),
+        .outside = p->outside,
         .n_attributes = p->attributes.n,
         .attributes = p->attributes.items,
     };

@@ -2,6 +2,7 @@
 #ifndef BAYESOPT_INTERNAL_H
 #define BAYESOPT_INTERNAL_H
 
+#include "condition.h"
 #include "random.h"
 #include "region.h"
 #include "surrogate.h"
@@ -22,16 +23,17 @@ struct point {
     bayesopt_phase phase;
     bayesopt_state state;
     int level;
-    double *x; /* [d] the caller's units */
-    double *u; /* [d] the same in [0,1]^d */
-    double f;
+    double *x;           /* [d] the caller's units */
+    double *u;           /* [d] the same in [0,1]^d */
+    double f;            /* to be minimised: with options.maximise minus what was told */
     double *constraints; /* [n_constraints] or NULL */
-    double *gradient;    /* [d] or NULL, the caller's units */
+    double *gradient;    /* [d] or NULL, as it was told */
     double variance;
     char *note;
     struct attributes attributes;
     int64_t session; /* that asked it; 0: none any more, to be asked again */
     bool detached;   /* pending, to be told by another session */
+    bool outside;    /* of the bounds: for the model only */
 };
 
 /* An ask under way; wanted is 0 between asks. */
@@ -47,7 +49,14 @@ struct bayesopt {
     double *lower, *upper;
     bayesopt_options options; /* pointers in it refer to the copies below */
     double *initial_x, *constraint_lower, *constraint_upper, *linear_a, *linear_b;
-    size_t *group; /* [d] or NULL */
+    size_t *group;       /* [d] or NULL */
+    bayesopt_kind *kind; /* [d] */
+    bool *categorical;   /* [d], NULL: none is */
+    char **names;        /* [d] */
+    bool named;          /* by the caller */
+    size_t n_discrete;   /* variables of few values: integer, categorical, fixed */
+    double *first_x;     /* [n_first x d] or NULL */
+    struct conditions conditions;
 
     struct region region;     /* linear and callback constraints on [0,1]^d */
     double *constraint_x;     /* [d] scratch of the region's callback */
@@ -72,10 +81,29 @@ size_t problem_budget(const struct bayesopt *bo);
 /* Points of the initial phase. With two levels the design is evaluated at the cheap one, and the
  * first quarter of it at the dear one too. */
 size_t problem_initial(const struct bayesopt *bo);
-/* Refuses points outside of the bounds. */
+/* Refuses points outside of the bounds, or with values that no point of the kind has. */
 bayesopt_status problem_check_points(const struct bayesopt *bo, size_t n, const double *x);
+/* The latter alone. */
+bayesopt_status problem_check_values(const struct bayesopt *bo, size_t n, const double *x);
+bool problem_inside(const struct bayesopt *bo, const double *x);
+/* The objective as it is searched, which is minimised, from what was told, and back. */
+double problem_sign(const struct bayesopt *bo);
 void problem_to_unit(const struct bayesopt *bo, const double *x, double *u);
 void problem_from_unit(const struct bayesopt *bo, const double *u, double *x);
+/* dx/du [d] at x; 0 for discrete variables. */
+void problem_unit_slope(const struct bayesopt *bo, const double *x, double *slope);
+/* Whether variable j takes few values; how many those are; u moved to the nearest point there is.
+ */
+bool problem_is_discrete(const struct bayesopt *bo, size_t j);
+double problem_values(const struct bayesopt *bo, size_t j);
+double problem_value_unit(const struct bayesopt *bo, size_t j, double k);
+void problem_snap(const struct bayesopt *bo, double *u);
+/* The same for points spread evenly over the box, so that every value gets its share. */
+void problem_spread(const struct bayesopt *bo, double *u);
+/* How many points there are, at most BAYESOPT_MOST_POINTS + 1. */
+size_t problem_size(const struct bayesopt *bo);
+/* Point i of them, when there are no more than BAYESOPT_MOST_POINTS. */
+void problem_point(const struct bayesopt *bo, size_t i, double *u);
 
 /* history.c */
 /* Of the level whose value is the objective's. */
@@ -100,6 +128,8 @@ double history_violation(const struct bayesopt *bo, const struct point *point);
 /* Appends a pending point at u (copied); NULL: out of memory. */
 struct point *history_append(struct bayesopt *bo, uint64_t id, const double *x,
                              bayesopt_phase phase);
+/* Whether u was asked before, lost points left aside. */
+bool history_was_asked(const struct bayesopt *bo, const double *u);
 struct point *history_find(struct bayesopt *bo, uint64_t id);
 void history_truncate(struct bayesopt *bo, size_t n);
 void point_clear(struct point *point);
@@ -114,6 +144,11 @@ bayesopt_status attributes_check(size_t n, const bayesopt_attribute *attributes)
 /* ask.c: whether the caller wants no more of the ask under way, and the failure that says so. */
 bool ask_is_cancelled(struct bayesopt *bo);
 bayesopt_status ask_cancelled(const struct bayesopt *bo);
+
+/* initial.c: points told before the first ask that take places of the initial design, which are the
+ * first ones; row i of the design in both units. */
+size_t initial_told(const struct bayesopt *bo);
+bayesopt_status initial_point(struct bayesopt *bo, size_t i, double *u, double *x);
 
 /* strategy.c: the next point in [0,1]^d, as proposal number id. */
 bayesopt_status strategy_propose(struct bayesopt *bo, uint64_t id, double *u, bayesopt_phase *phase,

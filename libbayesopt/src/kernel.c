@@ -84,14 +84,21 @@ void kernel_values(bayesopt_kernel kernel, size_t n, const double *r2, double *g
     }
 }
 
+/* Codes of categories are computed alike wherever they come from, but for rounding. */
+static const double same_category = 1e-9;
+
 BAYESOPT_CLONES
 void kernel_distances(size_t n, size_t d, const double *columns, size_t ld, const double *point,
-                      double *restrict r2)
+                      const double *jump, double *restrict r2)
 {
     memset(r2, 0, n * sizeof *r2);
     for (size_t j = 0; j < d; j++) {
         const double *column = columns + j * ld;
         double at = point[j];
+        for (size_t k = 0; k < n && jump && jump[j] > 0; k++)
+            r2[k] += fabs(column[k] - at) > same_category ? jump[j] : 0;
+        if (jump && jump[j] > 0)
+            continue;
         for (size_t k = 0; k < n; k++) {
             double difference = column[k] - at;
             r2[k] += difference * difference;
@@ -101,11 +108,18 @@ void kernel_distances(size_t n, size_t d, const double *columns, size_t ld, cons
 
 BAYESOPT_CLONES
 void kernel_weighted_squares(size_t n, size_t d, const double *columns, size_t ld,
-                             const double *point, const double *weight, double *sum)
+                             const double *point, const double *jump, const double *weight,
+                             double *sum)
 {
     for (size_t j = 0; j < d; j++) {
         const double *column = columns + j * ld;
         double at = point[j], total = 0;
+        if (jump && jump[j] > 0) {
+            for (size_t k = 0; k < n; k++)
+                total += fabs(column[k] - at) > same_category ? weight[k] * jump[j] : 0;
+            sum[j] += total;
+            continue;
+        }
 #pragma omp simd reduction(+ : total)
         for (size_t k = 0; k < n; k++) {
             double difference = column[k] - at;

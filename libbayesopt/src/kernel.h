@@ -12,12 +12,13 @@
 void kernel_values(bayesopt_kernel kernel, size_t n, const double *r2, double *g, double *w);
 
 /* r2[k] = sum_j (columns[j ld + k] - point[j])^2 for k < n: columns holds n points variable by
- * variable. */
+ * variable. Where jump[j] > 0 (jump NULL: nowhere) the square is jump[j] for values that differ. */
 void kernel_distances(size_t n, size_t d, const double *columns, size_t ld, const double *point,
-                      double *r2);
+                      const double *jump, double *r2);
 
-/* sum[j] += sum_{k < n} weight[k] (columns[j ld + k] - point[j])^2 */
+/* sum[j] += sum_{k < n} weight[k] times that square */
 void kernel_weighted_squares(size_t n, size_t d, const double *columns, size_t ld,
-                             const double *point, const double *weight, double *sum);
+                             const double *point, const double *jump, const double *weight,
+                             double *sum);
 
 #endif

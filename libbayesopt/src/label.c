@@ -10,8 +10,8 @@
  * that; so the trust falls steeply with the mean alone, on the successful side of the middle. */
 static const double label_noise = 1e-3, expected_label = 1, threshold = 0.5, width = 0.1;
 
-bayesopt_status label_fit(size_t n, size_t d, const double *x, const double *label, bool choose,
-                          double *lengthscale, bayesopt_gp **gp)
+bayesopt_status label_fit(size_t n, size_t d, const bool *categorical, const double *x,
+                          const double *label, bool choose, double *lengthscale, bayesopt_gp **gp)
 {
     /* Not shorter than a fifth of the box's diagonal: failures close to successes, as a boundary
      * has them, would else make every point an island. */
@@ -21,6 +21,7 @@ bayesopt_status label_fit(size_t n, size_t d, const double *x, const double *lab
     bayesopt_gp_options_init(&options);
     options.kernel = BAYESOPT_KERNEL_MATERN32;
     options.mean = BAYESOPT_MEAN_FIXED;
+    options.categorical = categorical;
     bayesopt_status status = bayesopt_gp_create(d, &options, gp);
     if (!status)
         status = bayesopt_gp_set_data(*gp, n, x, label, NULL);

@@ -77,7 +77,7 @@ bayesopt_status bayesopt_best(bayesopt *bo, double *x, double *f, uint64_t *id)
     if (x)
         memcpy(x, p->x, bo->d * sizeof *x);
     if (f)
-        *f = mean;
+        *f = problem_sign(bo) * mean;
     if (id)
         *id = p->id;
     return feasible ? BAYESOPT_OK : BAYESOPT_NONE_FEASIBLE;
@@ -103,7 +103,7 @@ bayesopt_status bayesopt_predict(bayesopt *bo, size_t n, const double *x, double
         status = surrogates_predict(bo, n, u, mean, var);
     for (size_t i = 0; i < n && !status; i++) {
         double half = sqrt(var[i]), centre = mean[i];
-        mean[i] = bayesopt_gp_from_model(gp, centre);
+        mean[i] = problem_sign(bo) * bayesopt_gp_from_model(gp, centre);
         if (sd)
             sd[i] = 0.5 * (bayesopt_gp_from_model(gp, centre + half) -
                            bayesopt_gp_from_model(gp, centre - half));
@@ -140,7 +140,9 @@ bayesopt_status bayesopt_model(bayesopt *bo, bayesopt_model_info *info, double *
     if (status)
         return status;
     for (size_t j = 0; j < bo->d && lengthscale; j++)
-        lengthscale[j] *= bo->upper[j] - bo->lower[j];
+        lengthscale[j] *= bo->kind[j] == BAYESOPT_KIND_LOG ? log(bo->upper[j] / bo->lower[j])
+                          : bo->kind[j] == BAYESOPT_KIND_CATEGORICAL ? 1
+                                                                     : bo->upper[j] - bo->lower[j];
     *info = (bayesopt_model_info){
         .n = gp_info.n,
         .isotropic = gp_info.isotropic,

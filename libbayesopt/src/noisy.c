@@ -71,6 +71,7 @@ static bayesopt_status make_exact(const bayesopt_gp *gp, struct noisy *noisy,
     options.noise = BAYESOPT_NOISE_DETERMINISTIC;
     options.transform = BAYESOPT_TRANSFORM_NONE;
     options.group = gp->group;
+    options.categorical = gp->categorical;
     bayesopt_status status = bayesopt_gp_create(gp->d, &options, &noisy->exact);
     if (!status)
         status = bayesopt_gp_set_data(noisy->exact, gp->n, gp->x, residual, NULL);
@@ -169,8 +170,8 @@ double noisy_log_ei(struct noisy *noisy, const double *x, double *gradient, doub
         return -INFINITY;
     double sd = sqrt(fmax(var, 1e-12));
     for (size_t j = 0; j < d; j++)
-        point[j] = x[j] / gp->lengthscale[j];
-    kernel_distances(n, d, gp->scaled, gp->capacity, point, work);
+        point[j] = gp_scaled(gp, j, x[j]);
+    kernel_distances(n, d, gp->scaled, gp->capacity, point, gp->jump, work);
     kernel_values(gp->options.kernel, n, work, work, NULL);
     for (size_t s = 0; s < DRAWS; s++) {
         mean = constant + gp->signal * matrix_dot(n, work, noisy->alpha + s * n);

@@ -23,6 +23,12 @@ const char *bayesopt_strategy_name(bayesopt_strategy strategy)
     return (unsigned)strategy < sizeof names / sizeof *names ? names[strategy] : "unknown";
 }
 
+const char *bayesopt_kind_name(bayesopt_kind kind)
+{
+    static const char *const names[] = {"real", "log", "integer", "categorical"};
+    return (unsigned)kind < sizeof names / sizeof *names ? names[kind] : "unknown";
+}
+
 void bayesopt_options_init(bayesopt_options *options)
 {
     if (!options)
@@ -45,7 +51,8 @@ void bayesopt_options_init(bayesopt_options *options)
     };
 }
 
-static bayesopt_status check_box(size_t d, const double *lower, const double *upper)
+static bayesopt_status check_box(size_t d, const double *lower, const double *upper,
+                                 const bayesopt_options *o)
 {
     if (d < 1 || d > BAYESOPT_MOST_VARIABLES)
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "%zu variables, expected 1 to %d", d,
@@ -53,11 +60,29 @@ static bayesopt_status check_box(size_t d, const double *lower, const double *up
     if (!lower || !upper)
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "%s is NULL", lower ? "upper" : "lower");
     for (size_t j = 0; j < d; j++)
-        if (!isfinite(lower[j]) || !isfinite(upper[j]) || !(lower[j] < upper[j]) ||
+        if (!isfinite(lower[j]) || !isfinite(upper[j]) || !(lower[j] <= upper[j]) ||
             !isfinite(upper[j] - lower[j]))
+            return bayesopt_fail(
+                BAYESOPT_ERROR_ARGUMENT,
+                "variable %zu: bounds %g and %g, expected finite and not decreasing", j, lower[j],
+                upper[j]);
+    for (size_t j = 0; j < d && o->kind; j++) {
+        bool whole = o->kind[j] == BAYESOPT_KIND_INTEGER || o->kind[j] == BAYESOPT_KIND_CATEGORICAL;
+        if ((unsigned)o->kind[j] > BAYESOPT_KIND_CATEGORICAL)
+            return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "variable %zu: kind %d is not known", j,
+                                 (int)o->kind[j]);
+        if (whole && (lower[j] != floor(lower[j]) || upper[j] != floor(upper[j]) ||
+                      upper[j] - lower[j] >= BAYESOPT_MOST_VALUES))
             return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
-                                 "variable %zu: bounds %g and %g, expected finite and increasing",
-                                 j, lower[j], upper[j]);
+                                 "variable %zu: bounds %g and %g of whole numbers, expected whole "
+                                 "ones and at most %d values",
+                                 j, lower[j], upper[j], BAYESOPT_MOST_VALUES);
+        if (o->kind[j] == BAYESOPT_KIND_LOG && !(lower[j] > 0))
+            return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
+                                 "variable %zu: lower bound %g on a scale of logarithms, expected "
+                                 "positive",
+                                 j, lower[j]);
+    }
     return BAYESOPT_OK;
 }
 
@@ -92,6 +117,8 @@ static bayesopt_status check_sizes(const bayesopt_options *o)
         {"n_constraints", o->n_constraints, BAYESOPT_MOST_CONSTRAINTS},
         {"n_input_constraints", o->n_input_constraints, BAYESOPT_MOST_CONSTRAINTS},
         {"n_linear", o->n_linear, BAYESOPT_MOST_CONSTRAINTS},
+        {"n_conditions", o->n_conditions, BAYESOPT_MOST_CONSTRAINTS},
+        {"n_first", o->n_first, BAYESOPT_MOST_POINTS},
     };
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++)
         if (sizes[i].n > sizes[i].most)
@@ -103,7 +130,7 @@ static bayesopt_status check_sizes(const bayesopt_options *o)
 bayesopt_status options_check(size_t d, const double *lower, const double *upper,
                               const bayesopt_options *o)
 {
-    bayesopt_status status = check_box(d, lower, upper);
+    bayesopt_status status = check_box(d, lower, upper, o);
     if (!status)
         status = check_enumerations(o);
     if (!status)
@@ -117,6 +144,22 @@ bayesopt_status options_check(size_t d, const double *lower, const double *upper
             return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
                                  "initial_x: variable %zu of point %zu is %g, expected %g to %g",
                                  i % d, i / d, o->initial_x[i], lower[i % d], upper[i % d]);
+    if (o->n_first && (!o->first_x || o->initial_x))
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "n_first is %zu %s", o->n_first,
+                             o->first_x ? "beside a whole design of one's own, initial_x"
+                                        : "without first_x");
+    if (o->told_count && (o->n_levels > 1 || o->initial_x))
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
+                             "told_count: points told count for the design of one level, and not "
+                             "beside one of one's own");
+    for (size_t j = 0; j < d && o->kind && o->mean == BAYESOPT_MEAN_LINEAR; j++)
+        if (o->kind[j] == BAYESOPT_KIND_CATEGORICAL)
+            return bayesopt_fail(
+                BAYESOPT_ERROR_ARGUMENT,
+                "variable %zu is categorical, which has no slope for a linear mean", j);
+    if (o->n_conditions && !o->conditions)
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "n_conditions is %zu without conditions",
+                             o->n_conditions);
     for (size_t i = 0; i < o->n_constraints; i++) {
         double low = o->constraint_lower ? o->constraint_lower[i] : -INFINITY;
         double high = o->constraint_upper ? o->constraint_upper[i] : 0;

@@ -9,11 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Where a step looks before it climbs, and how long it climbs; chosen on
- * tests/bench/bayesopt_regret. Perturbations of the best points by two sizes keep all but about
- * `moved_variables` coordinates (Regis and Shoemaker, Engineering Optimization 45 (2013) 529). */
-enum { NEIGHBOURS = 200, CENTRES = 5, ASCENT_EVALUATIONS = 60 };
-static const double neighbour_size[2] = {0.02, 0.1}, moved_variables = 8;
+/* How long a step climbs; chosen on tests/bench/bayesopt_regret. */
+enum { ASCENT_EVALUATIONS = 60 };
+/* With discrete variables climbs along the others and sweeps over these take turns. */
+enum { SWEEPS = 8, MOST_CATEGORIES = 64 };
 /* Change of the acquisition, a logarithm, at which a climb ends. */
 static const double ascent_tolerance = 1e-5;
 
@@ -315,22 +314,31 @@ static void input_constraints(unsigned m, double *result, unsigned n, const doub
     memcpy(gradient, b->jacobian, (size_t)m * n * sizeof *gradient);
 }
 
-/* One ascent from u; leaves the best point seen (within the region) in c->best_u. */
-static bayesopt_status ascend(struct climber *c, const double *u)
+/* One climb from u; leaves the best point seen (within the region) in c->best_u. */
+static bayesopt_status climb(struct climber *c, const double *u)
 {
     struct bayesopt *bo = c->bo;
     size_t d = bo->d, m = bo->region.m;
     double at[BAYESOPT_MOST_VARIABLES], value;
+    double lower[BAYESOPT_MOST_VARIABLES], upper[BAYESOPT_MOST_VARIABLES];
     struct broyden broyden = {.bo = bo};
     double *tolerances = NULL;
-    if (ask_is_cancelled(bo))
-        return ask_cancelled(bo);
+    c->best_value = -INFINITY;
+    if (bo->n_discrete == d) {
+        climb_objective((unsigned)d, u, NULL, c);
+        return BAYESOPT_OK;
+    }
+    for (size_t j = 0; j < d; j++) {
+        bool discrete = problem_is_discrete(bo, j);
+        lower[j] = discrete ? u[j] : c->search->lower[j];
+        upper[j] = discrete ? u[j] : c->search->upper[j];
+    }
     nlopt_opt opt = nlopt_create(m ? NLOPT_LD_SLSQP : NLOPT_LD_LBFGS, (unsigned)d);
     if (!opt)
         return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
     nlopt_set_min_objective(opt, climb_objective, c);
-    nlopt_set_lower_bounds(opt, c->search->lower);
-    nlopt_set_upper_bounds(opt, c->search->upper);
+    nlopt_set_lower_bounds(opt, lower);
+    nlopt_set_upper_bounds(opt, upper);
     nlopt_set_maxeval(opt, ASCENT_EVALUATIONS);
     nlopt_set_ftol_abs(opt, ascent_tolerance);
     if (m) {
@@ -345,7 +353,6 @@ static bayesopt_status ascend(struct climber *c, const double *u)
         memset(tolerances, 0, m * sizeof *tolerances);
         nlopt_add_inequality_mconstraint(opt, (unsigned)m, input_constraints, &broyden, tolerances);
     }
-    c->best_value = -INFINITY;
     memcpy(at, u, d * sizeof *at);
     nlopt_optimize(opt, at, &value);
     nlopt_destroy(opt);
@@ -353,62 +360,60 @@ static bayesopt_status ascend(struct climber *c, const double *u)
     return BAYESOPT_OK;
 }
 
-/* Rows of the history by merit: feasible ones by value, then the rest by violation. */
-static size_t pick_centres(const struct bayesopt *bo, size_t *centres)
+/* Value number t that a sweep tries for variable j at u; false: there are no more. Whole numbers
+ * go one step either way, categories to any other. */
+static bool sweep_value(const struct climber *c, size_t j, size_t t, double *value)
 {
-    size_t count = 0;
-    for (; count < CENTRES; count++) {
-        size_t best = SIZE_MAX;
-        struct merit most = merit_worst;
-        for (size_t i = 0; i < bo->n_points; i++) {
-            bool taken = !point_counts(bo, &bo->points[i]);
-            for (size_t k = 0; k < count; k++)
-                taken = taken || centres[k] == i;
-            if (taken)
-                continue;
-            struct merit merit = point_merit(bo, &bo->points[i]);
-            if (merit_better(merit, most)) {
-                most = merit;
-                best = i;
-            }
-        }
-        if (best == SIZE_MAX)
-            break;
-        centres[count] = best;
-    }
-    return count;
+    const struct bayesopt *bo = c->bo;
+    double unit = problem_value_unit(bo, j, 1), slack = 0.5 * unit;
+    bool category = bo->kind[j] == BAYESOPT_KIND_CATEGORICAL;
+    size_t count = category ? (size_t)problem_values(bo, j) : 2;
+    if (t >= count || t >= MOST_CATEGORIES || !(unit > 0))
+        return false;
+    *value = category ? problem_value_unit(bo, j, (double)t) : *value + (t ? unit : -unit);
+    return *value >= c->search->lower[j] - slack && *value <= c->search->upper[j] + slack;
 }
 
-/* Uniform candidates (a scrambled Sobol sequence) and perturbations of the best points. */
-static bayesopt_status make_candidates(struct bayesopt *bo, const struct search *search, double *x,
-                                       size_t *n)
+/* The best of the points that differ from c->best_u in one discrete variable, if it is better. */
+static bool sweep(struct climber *c)
 {
-    size_t d = bo->d, centres[CENTRES], count = pick_centres(bo, centres);
-    bayesopt_design_options options;
-    bayesopt_design_options_init(&options);
-    options.seed = random_hash(bo->options.seed ^ random_hash(search->id));
-    bayesopt_status status =
-        bayesopt_design(BAYESOPT_DESIGN_SOBOL, search->candidates, d, &options, x);
-    if (status)
-        return status;
-    for (size_t i = 0; i < search->candidates; i++)
-        for (size_t j = 0; j < d; j++)
-            x[i * d + j] = search->lower[j] + x[i * d + j] * (search->upper[j] - search->lower[j]);
-    struct random_stream stream;
-    random_start(&stream, bo->options.seed, STREAM_SEARCH, search->id);
-    double share = fmin(1, moved_variables / (double)d);
-    for (size_t i = 0; i < NEIGHBOURS && count; i++) {
-        const double *centre = bo->points[centres[i % count]].u;
-        double *at = x + (search->candidates + i) * d, size = neighbour_size[i % 2];
-        size_t always = random_below(&stream, d);
-        for (size_t j = 0; j < d; j++) {
-            double draw = random_uniform(&stream), move = size * random_normal(&stream);
-            double to = centre[j] + (draw < share || j == always ? move : 0);
-            at[j] = fmin(fmax(to, search->lower[j]), search->upper[j]);
+    struct bayesopt *bo = c->bo;
+    double from[BAYESOPT_MOST_VARIABLES], at[BAYESOPT_MOST_VARIABLES], before = c->best_value;
+    memcpy(from, c->best_u, bo->d * sizeof *from);
+    for (size_t j = 0; j < bo->d; j++)
+        for (size_t t = 0; t < MOST_CATEGORIES && problem_is_discrete(bo, j); t++) {
+            memcpy(at, from, bo->d * sizeof *at);
+            if (!sweep_value(c, j, t, &at[j])) {
+                if (t > 1)
+                    break;
+                continue;
+            }
+            problem_snap(bo, at);
+            climb_objective((unsigned)bo->d, at, NULL, c);
+        }
+    return c->best_value > before + ascent_tolerance;
+}
+
+/* One ascent from u. */
+static bayesopt_status ascend(struct climber *c, const double *u)
+{
+    struct bayesopt *bo = c->bo;
+    double from[BAYESOPT_MOST_VARIABLES], most;
+    if (ask_is_cancelled(bo))
+        return ask_cancelled(bo);
+    bayesopt_status status = climb(c, u);
+    for (int turn = 0;
+         turn < SWEEPS && bo->n_discrete && !status && isfinite(c->best_value) && sweep(c);
+         turn++) {
+        memcpy(from, c->best_u, bo->d * sizeof *from);
+        most = c->best_value;
+        status = climb(c, from);
+        if (c->best_value < most) {
+            c->best_value = most;
+            memcpy(c->best_u, from, bo->d * sizeof *from);
         }
     }
-    *n = search->candidates + (count ? NEIGHBOURS : 0);
-    return BAYESOPT_OK;
+    return status;
 }
 
 static bayesopt_status score(struct climber *c, size_t n, const double *x, double *values)
@@ -523,7 +528,7 @@ bayesopt_status search_run(struct bayesopt *bo, const struct search *search, dou
                            double *value)
 {
     struct climber c;
-    size_t n = search->candidates + NEIGHBOURS;
+    size_t n = search->candidates + SEARCH_NEIGHBOURS;
     double *x = malloc(n * (bo->d + 1) * sizeof *x);
     if (!x || !climber_create(&c, bo, search)) {
         free(x);
@@ -534,7 +539,7 @@ bayesopt_status search_run(struct bayesopt *bo, const struct search *search, dou
     if (!status)
         status = prepare_noisy(&c);
     if (!status)
-        status = make_candidates(bo, search, x, &n);
+        status = search_candidates(bo, search, x, &n);
     if (!status)
         status = score(&c, n, x, values);
     if (!status)

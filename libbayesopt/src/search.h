@@ -28,6 +28,12 @@ bool search_is_apart(const struct bayesopt *bo, const double *apart, const doubl
 bayesopt_status search_run(struct bayesopt *bo, const struct search *search, double *u,
                            double *value);
 
+/* candidates.c: fills x [(candidates + SEARCH_NEIGHBOURS) x d] with points of the box, first some
+ * spread over it, then some near the best points; *n is how many. */
+enum { SEARCH_NEIGHBOURS = 200 };
+bayesopt_status search_candidates(struct bayesopt *bo, const struct search *search, double *x,
+                                  size_t *n);
+
 /* Adds pending points to the models at their posterior means (Kriging believer: Ginsbourger, Le
  * Riche, Carraro 2010), so that they are not proposed again. */
 bayesopt_status search_believe_pending(struct bayesopt *bo);

@@ -154,7 +154,7 @@ static bayesopt_status read_outcome(struct bayesopt *bo, sqlite3_stmt *s, struct
     }
     if (p->state != BAYESOPT_STATE_DONE)
         return BAYESOPT_OK;
-    p->f = sqlite3_column_double(s, F);
+    p->f = problem_sign(bo) * sqlite3_column_double(s, F);
     p->variance = sqlite3_column_double(s, VARIANCE);
     if (sqlite3_column_type(s, F) == SQLITE_NULL || !isfinite(p->f))
         return damaged(bo->store, s, "is done without a finite value");
@@ -177,9 +177,8 @@ static bayesopt_status read_row(struct bayesopt *bo, sqlite3_stmt *s)
     struct point *p = history_find(bo, (uint64_t)id);
     if (!p) {
         double *x = store_column_numbers(s, X, bo->d);
-        bool inside = x != NULL;
-        for (size_t j = 0; j < bo->d && inside; j++)
-            inside = x[j] >= bo->lower[j] && x[j] <= bo->upper[j];
+        bool inside = x && !problem_check_values(bo, 1, x) &&
+                      (phase == BAYESOPT_PHASE_EXTERNAL || problem_inside(bo, x));
         if (inside && bo->n_points && bo->points[bo->n_points - 1].id >= (uint64_t)id)
             inside = false;
         p = inside ? history_append(bo, (uint64_t)id, x, (bayesopt_phase)phase) : NULL;
@@ -313,7 +312,7 @@ static bayesopt_status write_point(struct bayesopt *bo, const struct point *p, c
     sqlite3_bind_int(s, 7, p->detached);
     bool ok = store_bind_numbers(s, 8, p->x, bo->d);
     if (p->state == BAYESOPT_STATE_DONE)
-        sqlite3_bind_double(s, 9, p->f);
+        sqlite3_bind_double(s, 9, problem_sign(bo) * p->f);
     ok = ok && store_bind_numbers(s, 10, p->constraints, bo->options.n_constraints);
     ok = ok && store_bind_numbers(s, 11, p->gradient, bo->d);
     sqlite3_bind_double(s, 12, p->variance);

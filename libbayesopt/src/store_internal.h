@@ -29,7 +29,11 @@ bayesopt_status store_get_meta(struct store *store, const char *key, double **va
 /* Reads rows changed since the last reading, and the models' state. */
 bayesopt_status store_refresh(struct bayesopt *bo);
 
-/* store_record.c: what is kept beside a point's value. */
+/* store_record.c: a text within a transaction; *text NULL if there is none, else the caller frees.
+ */
+bayesopt_status store_put_text(struct store *store, const char *name, const char *text);
+bayesopt_status store_get_text(struct store *store, const char *name, char **text);
+/* What is kept beside a point's value. */
 bayesopt_status store_put_attributes(struct store *store, const struct point *point);
 bayesopt_status store_get_attributes(struct store *store, struct point *point);
 
@@ -39,6 +43,17 @@ bayesopt_status store_put_problem(struct bayesopt *bo);
 bayesopt_status store_compare_problem(struct bayesopt *bo);
 bayesopt_status store_get_problem(struct store *store, bayesopt_input_constraint input_constraint,
                                   void *input_user_data, bayesopt **bo);
+
+/* store_names.c: names of variables and texts of conditions, likewise. */
+bayesopt_status store_put_names(struct bayesopt *bo);
+bayesopt_status store_compare_names(struct bayesopt *bo);
+struct named {
+    size_t d, n;
+    char **names;      /* [d], NULL where the store has none */
+    char **conditions; /* [n] */
+};
+bayesopt_status store_get_names(struct store *store, size_t d, struct named *named);
+void named_free(struct named *named);
 
 /* store_session.c */
 bayesopt_status store_session_start(struct bayesopt *bo);

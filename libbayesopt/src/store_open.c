@@ -243,7 +243,7 @@ static bayesopt_status open_existing(const char *path, int flags,
     status = classify(*store, &format);
     if (!status && !format)
         status = bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: an empty database, not a store", path);
-    if (!status && format < FORMAT && (*store)->read_only)
+    if (!status && format < FORMAT)
         status = migrate_copy(*store);
     if (!status)
         status = store_get_problem(*store, input_constraint, input_user_data, bo);

@@ -12,7 +12,7 @@ struct field {
     size_t n;
     double *values;
 };
-enum { FIELDS = 22 };
+enum { FIELDS = 24 };
 
 static double *numbers(size_t n, const double *from)
 {
@@ -53,13 +53,15 @@ enum {
     LEVEL_COST_RATIO,
     MODEL,
     GROUP,
+    KIND,
+    FIRST_X,
     STOPS
 };
 
-/* Stores of version 0.1.0 know nothing of these; they have the default values. */
+/* Stores of earlier versions know nothing of these; they have the default values. */
 static bool is_recent(size_t field)
 {
-    return field == MODEL || field == GROUP;
+    return field == MODEL || field == GROUP || field == KIND || field == FIRST_X;
 }
 
 static bool problem_fields(const struct bayesopt *bo, struct field *f)
@@ -71,9 +73,16 @@ static bool problem_fields(const struct bayesopt *bo, struct field *f)
     double levels = (double)o->n_levels;
     double stops[2] = {(double)o->stop_no_improvement, o->stop_expected_improvement};
     double model[4] = {o->mean, o->choice, o->acquisition, o->lcb_factor}, *group = NULL;
+    double kind_head[2] = {o->maximise, o->told_count},
+           *kinds = malloc((bo->d + 2) * sizeof *kinds);
     split_seed(o->seed, seed);
-    if (bo->group && !(group = malloc(bo->d * sizeof *group)))
+    if (!kinds || (bo->group && !(group = malloc(bo->d * sizeof *group)))) {
+        free(kinds);
         return false;
+    }
+    memcpy(kinds, kind_head, sizeof kind_head);
+    for (size_t j = 0; j < bo->d; j++)
+        kinds[2 + j] = bo->kind[j];
     for (size_t j = 0; j < bo->d && group; j++)
         group[j] = (double)bo->group[j];
     const struct {
@@ -102,6 +111,9 @@ static bool problem_fields(const struct bayesopt *bo, struct field *f)
         [LEVEL_COST_RATIO] = {"level_cost_ratio", 1, &o->level_cost_ratio},
         [MODEL] = {"model", 4, model},
         [GROUP] = {"group", group ? bo->d : 0, group},
+        /* Whether the objective is maximised and told points count, then the kinds. */
+        [KIND] = {"kinds", bo->d + 2, kinds},
+        [FIRST_X] = {"first_x", o->n_first * bo->d, bo->first_x},
         [STOPS] = {"stops", 2, stops},
     };
     bool ok = true;
@@ -110,6 +122,7 @@ static bool problem_fields(const struct bayesopt *bo, struct field *f)
         ok = ok && f[i].values;
     }
     free(group);
+    free(kinds);
     return ok;
 }
 
@@ -128,6 +141,8 @@ bayesopt_status store_put_problem(struct bayesopt *bo)
     for (size_t i = 0; i < FIELDS && !status; i++)
         status = store_put_meta(bo->store, fields[i].name, fields[i].values, fields[i].n);
     problem_fields_free(fields);
+    if (!status)
+        status = store_put_names(bo);
     return status ? status : store_put_budget(bo);
 }
 
@@ -136,7 +151,11 @@ static bayesopt_status compare_field(struct store *store, const struct field *fi
     double *values;
     size_t n;
     bayesopt_status status = store_get_meta(store, field->name, &values, &n);
-    if (!status && !values && recent)
+    /* What a store does not know it has as it is by default. */
+    bool plain = strcmp(field->name, "first_x") != 0 || !field->n;
+    for (size_t i = 0; i < field->n && strcmp(field->name, "kinds") == 0; i++)
+        plain = plain && field->values[i] == 0;
+    if (!status && !values && recent && plain)
         return BAYESOPT_OK;
     if (!status && (!values || n != field->n))
         status =
@@ -162,6 +181,8 @@ bayesopt_status store_compare_problem(struct bayesopt *bo)
     for (size_t i = 0; i < STOPS && !status; i++)
         status = compare_field(bo->store, &fields[i], is_recent(i));
     problem_fields_free(fields);
+    if (!status)
+        status = store_compare_names(bo);
     return status ? status : store_put_budget(bo);
 }
 
@@ -171,18 +192,34 @@ static double first(const struct field *field)
 }
 
 /* The options and bounds a store was created with; arrays stay in the fields. */
-static bayesopt_status create_from_fields(const struct field *f, double budget,
-                                          bayesopt_input_constraint input_constraint,
+static bayesopt_status create_from_fields(const struct field *f, const struct named *named,
+                                          double budget, bayesopt_input_constraint input_constraint,
                                           void *input_user_data, bayesopt **bo)
 {
     bayesopt_options o;
     size_t d = f[BOX_LOWER].n, *group = malloc(d * sizeof *group);
-    if (!group)
+    bayesopt_kind *kind = malloc(d * sizeof *kind);
+    if (!group || !kind) {
+        free(group);
+        free(kind);
         return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
+    }
     for (size_t j = 0; j < f[GROUP].n; j++)
         group[j] = (size_t)f[GROUP].values[j];
     bayesopt_options_init(&o);
     o.group = f[GROUP].n ? group : NULL;
+    if (f[KIND].n == d + 2) {
+        for (size_t j = 0; j < d; j++)
+            kind[j] = (bayesopt_kind)f[KIND].values[2 + j];
+        o.kind = kind;
+        o.maximise = f[KIND].values[0] != 0;
+        o.told_count = f[KIND].values[1] != 0;
+    }
+    o.n_first = f[FIRST_X].n / d;
+    o.first_x = f[FIRST_X].values;
+    o.names = (const char *const *)named->names;
+    o.n_conditions = named->n;
+    o.conditions = (const char *const *)named->conditions;
     o.seed = ((uint64_t)first(&f[SEED]) << 32) | (uint64_t)f[SEED].values[1];
     o.max_evaluations = budget < 0x1p53 ? (size_t)budget : SIZE_MAX;
     o.initial_kind = (bayesopt_design_kind)first(&f[INITIAL_KIND]);
@@ -217,6 +254,7 @@ static bayesopt_status create_from_fields(const struct field *f, double budget,
         o.n_input_constraints = 0;
     bayesopt_status status = bayesopt_create(d, f[BOX_LOWER].values, f[BOX_UPPER].values, &o, bo);
     free(group);
+    free(kind);
     if (!status && missing) {
         (*bo)->options.n_input_constraints = wanted;
         (*bo)->constraints_missing = true;
@@ -226,7 +264,8 @@ static bayesopt_status create_from_fields(const struct field *f, double budget,
 
 static bool is_array(size_t field)
 {
-    return field <= BOX_UPPER || (field >= INITIAL_X && field <= LINEAR_B) || field == GROUP;
+    return field <= BOX_UPPER || (field >= INITIAL_X && field <= LINEAR_B) || field == GROUP ||
+           field == KIND || field == FIRST_X;
 }
 
 /* Arrays must fit each other, everything else has the length it has in any problem. */
@@ -239,7 +278,8 @@ static bayesopt_status check_lengths(const struct store *store, const struct fie
             return bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: entry '%s' is damaged", store->path,
                                  f[i].name);
     if (!d || f[BOX_UPPER].n != d || f[CONSTRAINT_UPPER].n != m ||
-        f[LINEAR_A].n != f[LINEAR_B].n * d || (f[GROUP].n && f[GROUP].n != d) ||
+        f[LINEAR_A].n != f[LINEAR_B].n * d || (f[KIND].n != d + 2 && f[KIND].n != 3) ||
+        f[FIRST_X].n % d || (f[GROUP].n && f[GROUP].n != d) ||
         (initial && (double)initial != first(&f[INITIAL_N]) * (double)d))
         return bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: its entries do not agree in length",
                              store->path);
@@ -288,8 +328,12 @@ bayesopt_status store_get_problem(struct store *store, bayesopt_input_constraint
     struct field fields[FIELDS] = {{0}};
     double budget = 0;
     bayesopt_status status = read_fields(store, fields, &budget);
+    struct named named = {0};
     if (!status)
-        status = create_from_fields(fields, budget, input_constraint, input_user_data, bo);
+        status = store_get_names(store, fields[BOX_LOWER].n, &named);
+    if (!status)
+        status = create_from_fields(fields, &named, budget, input_constraint, input_user_data, bo);
+    named_free(&named);
     problem_fields_free(fields);
     return status;
 }

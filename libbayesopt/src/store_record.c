@@ -72,42 +72,50 @@ static bayesopt_status look_up(struct store *store, const char *sql, const char 
     return status;
 }
 
-bayesopt_status bayesopt_store_put_text(bayesopt *bo, const char *name, const char *text)
+bayesopt_status store_put_text(struct store *store, const char *name, const char *text)
 {
     sqlite3_stmt *s;
-    bayesopt_status status = check_name(bo, name);
-    if (!status && !text)
-        status = bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "'%s': the text is NULL", name);
-    if (!status)
-        status = store_begin(bo);
+    bayesopt_status status = store_prepare(
+        store, "INSERT OR REPLACE INTO bayesopt_texts(name, value) VALUES(?1, ?2)", &s);
     if (status)
         return status;
-    status = store_prepare(bo->store,
-                           "INSERT OR REPLACE INTO bayesopt_texts(name, value) VALUES(?1, ?2)", &s);
-    if (!status) {
-        sqlite3_bind_text(s, 1, name, -1, SQLITE_STATIC);
-        bool bound =
-            sqlite3_bind_text64(s, 2, text, strlen(text), SQLITE_STATIC, SQLITE_UTF8) == SQLITE_OK;
-        status = finish(bo->store, s, bound);
-    }
-    return conclude(bo, status);
+    sqlite3_bind_text(s, 1, name, -1, SQLITE_STATIC);
+    bool bound =
+        sqlite3_bind_text64(s, 2, text, strlen(text), SQLITE_STATIC, SQLITE_UTF8) == SQLITE_OK;
+    return finish(store, s, bound);
 }
 
-bayesopt_status bayesopt_store_get_text(const bayesopt *bo, const char *name, char **text)
+bayesopt_status store_get_text(struct store *store, const char *name, char **text)
 {
     sqlite3_stmt *s;
-    if (!text)
-        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "no place for the text");
     *text = NULL;
-    bayesopt_status status = check_name(bo, name);
-    if (!status)
-        status = look_up(bo->store, "SELECT value FROM bayesopt_texts WHERE name = ?1", name, &s);
+    bayesopt_status status =
+        look_up(store, "SELECT value FROM bayesopt_texts WHERE name = ?1", name, &s);
     if (status || !s)
         return status;
     const char *value = (const char *)sqlite3_column_text(s, 0);
     *text = value ? strdup(value) : NULL;
     sqlite3_finalize(s);
     return *text ? BAYESOPT_OK : no_memory();
+}
+
+bayesopt_status bayesopt_store_put_text(bayesopt *bo, const char *name, const char *text)
+{
+    bayesopt_status status = check_name(bo, name);
+    if (!status && !text)
+        status = bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "'%s': the text is NULL", name);
+    if (!status)
+        status = store_begin(bo);
+    return status ? status : conclude(bo, store_put_text(bo->store, name, text));
+}
+
+bayesopt_status bayesopt_store_get_text(const bayesopt *bo, const char *name, char **text)
+{
+    if (!text)
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "no place for the text");
+    *text = NULL;
+    bayesopt_status status = check_name(bo, name);
+    return status ? status : store_get_text(bo->store, name, text);
 }
 
 bayesopt_status bayesopt_store_put_array(bayesopt *bo, const char *name, size_t rows,

@@ -173,59 +173,88 @@ double strategy_trust_length(const struct bayesopt *bo)
     return trust_replay(bo).length;
 }
 
+/* Whether values of variable j lie nearer or farther from each other. */
+static bool has_distance(const struct bayesopt *bo, size_t j)
+{
+    return bo->kind[j] != BAYESOPT_KIND_CATEGORICAL && bo->lower[j] < bo->upper[j];
+}
+
 /* Sides of a box of geometric mean 1, longer along variables of long length scale. */
 static void relative_sides(const struct bayesopt *bo, double *sides)
 {
     double logs = 0;
     bayesopt_gp_parameters parameters = {.lengthscale = sides};
     bayesopt_gp_get_parameters(bo->surrogates.gps[0], &parameters);
+    size_t count = 0;
     for (size_t j = 0; j < bo->d; j++)
-        logs += log(sides[j]) / (double)bo->d;
+        if (has_distance(bo, j)) {
+            logs += log(sides[j]);
+            count++;
+        }
     for (size_t j = 0; j < bo->d; j++)
-        sides[j] /= exp(logs);
+        sides[j] = has_distance(bo, j) ? sides[j] / exp(logs / (double)count) : 1;
 }
 
-/* Box around the best point. */
-static void trust_box(size_t d, double length, const double *sides, const double *centre,
-                      double *lower, double *upper)
+/* Box around the best point: whole numbers reach at least one step far, categories anywhere. */
+static void trust_box(const struct bayesopt *bo, double length, const double *sides,
+                      const double *centre, double *lower, double *upper)
 {
-    for (size_t j = 0; j < d; j++) {
-        lower[j] = fmax(centre[j] - 0.5 * length * sides[j], 0);
-        upper[j] = fmin(centre[j] + 0.5 * length * sides[j], 1);
+    for (size_t j = 0; j < bo->d; j++) {
+        double half = 0.5 * length * sides[j];
+        if (bo->kind[j] == BAYESOPT_KIND_CATEGORICAL)
+            half = 1;
+        else if (problem_is_discrete(bo, j))
+            half = problem_value_unit(bo, j, fmax(round(half * (problem_values(bo, j) - 1)), 1));
+        lower[j] = fmax(centre[j] - half, 0);
+        upper[j] = fmin(centre[j] + half, 1);
     }
+}
+
+/* Some point of a space of whole numbers that was not asked yet. */
+static bayesopt_status find_new(struct bayesopt *bo, struct random_stream *stream, double *u)
+{
+    size_t size = problem_size(bo), from = random_below(stream, size);
+    double at[BAYESOPT_MOST_VARIABLES];
+    for (size_t i = 0; i < size; i++) {
+        problem_point(bo, (from + i) % size, at);
+        if (!history_was_asked(bo, at) && region_contains(&bo->region, at)) {
+            memcpy(u, at, bo->d * sizeof *u);
+            return BAYESOPT_OK;
+        }
+    }
+    return BAYESOPT_STOP_EXHAUSTED;
 }
 
 /* Deterministic objectives gain nothing from a point evaluated before. */
-static void keep_apart(struct bayesopt *bo, uint64_t id, double *u)
+static bayesopt_status keep_apart(struct bayesopt *bo, uint64_t id, double *u)
 {
     struct random_stream stream;
+    bool discrete = bo->n_discrete == bo->d;
     random_start(&stream, bo->options.seed, STREAM_STRATEGY, id);
-    for (int attempt = 0; attempt < 100; attempt++) {
-        double nearest = INFINITY, moved[BAYESOPT_MOST_VARIABLES];
-        for (size_t i = 0; i < bo->n_points; i++) {
-            double most = bo->points[i].state == BAYESOPT_STATE_LOST ? INFINITY : 0;
-            for (size_t j = 0; j < bo->d; j++)
-                most = fmax(most, fabs(bo->points[i].u[j] - u[j]));
-            nearest = fmin(nearest, most);
-        }
-        if (nearest > 1e-7)
-            return;
+    if (discrete && bo->options.noise != BAYESOPT_NOISE_DETERMINISTIC)
+        return BAYESOPT_OK;
+    for (int attempt = 0; attempt < 100 && history_was_asked(bo, u); attempt++) {
+        double moved[BAYESOPT_MOST_VARIABLES];
         for (size_t j = 0; j < bo->d; j++)
             moved[j] = fmin(fmax(u[j] + 1e-3 * random_normal(&stream), 0), 1);
+        problem_snap(bo, moved);
         if (region_contains(&bo->region, moved))
             memcpy(u, moved, bo->d * sizeof *u);
     }
+    bool small = discrete && problem_size(bo) <= BAYESOPT_MOST_POINTS;
+    return small && history_was_asked(bo, u) ? find_new(bo, &stream, u) : BAYESOPT_OK;
 }
 
 static bayesopt_status propose_anywhere(struct bayesopt *bo, uint64_t id, double *u)
 {
     struct random_stream stream;
     random_start(&stream, bo->options.seed, STREAM_STRATEGY, id);
-    return region_find(&bo->region, &stream, u)
-               ? BAYESOPT_OK
-               : bayesopt_fail(BAYESOPT_ERROR_INFEASIBLE,
-                               "no point found that satisfies the %zu input constraints",
-                               bo->region.m);
+    bool found = region_find(&bo->region, &stream, u);
+    problem_snap(bo, u);
+    return found ? keep_apart(bo, id, u)
+                 : bayesopt_fail(BAYESOPT_ERROR_INFEASIBLE,
+                                 "no point found that satisfies the %zu input constraints",
+                                 bo->region.m);
 }
 
 /* Whether the points near the centre are as many as a quadratic has coefficients. */
@@ -243,7 +272,7 @@ static bool surrounded(const struct bayesopt *bo, const struct trust *t)
  * the better conditioned of the two. */
 static bayesopt_phase polishing_phase(const struct bayesopt *bo, const struct trust *t)
 {
-    if (!surrounded(bo, t) || bo->options.noise != BAYESOPT_NOISE_DETERMINISTIC)
+    if (bo->n_discrete || !surrounded(bo, t) || bo->options.noise != BAYESOPT_NOISE_DETERMINISTIC)
         return BAYESOPT_PHASE_POLISH;
     bool descent = t->descent_credit > t->polish_credit;
     if (t->polished % 4 == 3)
@@ -339,6 +368,14 @@ static double batch_length(const struct bayesopt *bo, double length, bayesopt_ph
     return ldexp(length, -(int)(count_pending(bo, phase, phase) % BATCH_SIZES));
 }
 
+/* Of whole numbers the least mean is often at a point that was asked, where nothing is to be
+ * learnt. */
+static bool repeats(const struct bayesopt *bo, const double *u)
+{
+    return bo->n_discrete && bo->options.noise == BAYESOPT_NOISE_DETERMINISTIC &&
+           history_was_asked(bo, u);
+}
+
 /* One step of the given kind; without apart wherever it leads. */
 static bayesopt_status take_step(struct bayesopt *bo, struct search *search, const struct trust *t,
                                  bayesopt_phase phase, double *u, double *value)
@@ -362,11 +399,11 @@ static bayesopt_status take_step(struct bayesopt *bo, struct search *search, con
         apart[j] = batch_apart * sqrt((double)bo->d) * length * sides[j];
     }
     if (phase != BAYESOPT_PHASE_GLOBAL)
-        trust_box(bo->d, length, sides, bo->points[t->centre].u, lower, upper);
+        trust_box(bo, length, sides, bo->points[t->centre].u, lower, upper);
     search->apart = pending && !polishing ? apart : NULL;
     bayesopt_status status = search_run(bo, search, u, value);
     /* The place of a polishing step may be in good hands already. */
-    if (!status && polishing && !search_is_apart(bo, apart, u))
+    if (!status && polishing && (!search_is_apart(bo, apart, u) || repeats(bo, u)))
         *value = -INFINITY;
     return status;
 }
@@ -404,7 +441,7 @@ bayesopt_status strategy_propose(struct bayesopt *bo, uint64_t id, double *u, ba
     if (!status && *phase == BAYESOPT_PHASE_GLOBAL && little_expected(bo, value))
         return BAYESOPT_STOP_EXPECTED_IMPROVEMENT;
     if (!status)
-        keep_apart(bo, id, u);
+        status = keep_apart(bo, id, u);
     if (!status && bo->options.n_levels == 2)
         status = choose_level(bo, u, level);
     return status;

@@ -148,7 +148,7 @@ static const double gradient_step = 2e-3;
 static void add_gradients(const struct bayesopt *bo, struct sample *sample)
 {
     size_t d = bo->d, added = 0;
-    double last = -INFINITY;
+    double last = -INFINITY, slope[BAYESOPT_MOST_VARIABLES];
     while (added + d <= MOST_STEPS) {
         const struct point *next = NULL;
         for (size_t i = 0; i < bo->n_points; i++) {
@@ -159,13 +159,15 @@ static void add_gradients(const struct bayesopt *bo, struct sample *sample)
         if (!next)
             return;
         last = next->f;
+        problem_unit_slope(bo, next->x, slope);
         for (size_t j = 0; j < d; j++, added++) {
+            if (problem_is_discrete(bo, j))
+                continue;
             double *at = sample->x + sample->n * d;
             double step = next->u[j] < 0.5 ? gradient_step : -gradient_step;
             memcpy(at, next->u, d * sizeof *at);
             at[j] += step;
-            sample->y[sample->n] =
-                next->f + step * (bo->upper[j] - bo->lower[j]) * next->gradient[j];
+            sample->y[sample->n] = next->f + problem_sign(bo) * step * slope[j] * next->gradient[j];
             sample->variance[sample->n++] = fmax(next->variance, 1e-300);
         }
     }
@@ -179,6 +181,7 @@ static void model_options(const struct bayesopt *bo, size_t which, bayesopt_gp_o
     o->scales = bo->options.scales;
     o->group = bo->group;
     o->choice = bo->options.choice;
+    o->categorical = bo->categorical;
     if (which == 0 || which == bo->surrogates.count) {
         o->noise = bo->options.noise;
         o->mean = bo->options.mean;
@@ -200,8 +203,8 @@ static bayesopt_status fit_labels(struct bayesopt *bo, size_t which, const struc
     struct model_state *state = &bo->surrogates.states[which];
     bool cold = is_cold(state, sample->n);
     double lengthscale = state->lengthscale[0];
-    bayesopt_status status = label_fit(sample->n, bo->d, sample->x, sample->y, cold, &lengthscale,
-                                       &bo->surrogates.gps[which]);
+    bayesopt_status status = label_fit(sample->n, bo->d, bo->categorical, sample->x, sample->y,
+                                       cold, &lengthscale, &bo->surrogates.gps[which]);
     if (!status && keep && cold) {
         state->known = true;
         state->cold_n = (double)sample->n;

@@ -66,7 +66,7 @@ static bayesopt_status record(struct bayesopt *bo, struct point *p, const bayeso
     p->state = done           ? BAYESOPT_STATE_DONE
                : r->transient ? BAYESOPT_STATE_LOST
                               : BAYESOPT_STATE_FAILED;
-    p->f = done ? r->f : NAN;
+    p->f = done ? problem_sign(bo) * r->f : NAN;
     p->variance = done ? r->variance : 0;
     bo->surrogates.fitted = false;
     return BAYESOPT_OK;
@@ -149,7 +149,7 @@ bayesopt_status bayesopt_release(bayesopt *bo, uint64_t id)
         status = bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
                                "point %llu has the value %g; only what is pending or failed can be "
                                "asked again",
-                               (unsigned long long)id, p->f);
+                               (unsigned long long)id, problem_sign(bo) * p->f);
     if (!status) {
         /* The file first: should it refuse, the history stays as it is. */
         struct point again = {.id = p->id, .phase = p->phase, .level = p->level, .x = p->x};
@@ -175,7 +175,8 @@ bayesopt_status bayesopt_tell_point_result(bayesopt *bo, const double *x,
     NEED(bo);
     NEED(x);
     NEED(result);
-    bayesopt_status status = problem_check_points(bo, 1, x);
+    bayesopt_status status =
+        result->outside ? problem_check_values(bo, 1, x) : problem_check_points(bo, 1, x);
     if (!status)
         status = check_result(bo, result);
     if (!status)

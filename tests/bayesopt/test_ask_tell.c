@@ -355,7 +355,7 @@ static void misuse_is_refused(void)
 {
     bayesopt *bo;
     bayesopt_options options;
-    double lower[2] = {0, 0}, upper[2] = {1, 0}, x[2];
+    double lower[2] = {0, 0}, upper[2] = {1, -1}, x[2];
     uint64_t id;
     CU_ASSERT_EQUAL(bayesopt_create(2, lower, upper, NULL, &bo), BAYESOPT_ERROR_ARGUMENT);
     CU_ASSERT_PTR_NOT_NULL(strstr(bayesopt_last_error(), "variable 1"));

@@ -49,10 +49,10 @@ static void creating(void)
     REFUSED(bayesopt_create(0, lower, upper, NULL, &bo));
     REFUSED(bayesopt_create(HUGE_COUNT, lower, upper, NULL, &bo));
     size_t *counts[] = {&o.initial_n, &o.n_constraints, &o.n_linear, &o.n_input_constraints,
-                        &o.n_levels};
+                        &o.n_levels,  &o.n_conditions,  &o.n_first};
     for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
         bayesopt_options_init(&o);
-        o.linear_a = o.linear_b = lower;
+        o.linear_a = o.linear_b = o.first_x = lower;
         *counts[i] = HUGE_COUNT;
         REFUSED(bayesopt_create(D, lower, upper, &o, &bo));
         *counts[i] = SIZE_MAX;
@@ -132,6 +132,10 @@ static void looking(void)
     CU_ASSERT(bayesopt_constraint_count(NULL, x, x) == 0);
     CU_ASSERT(bayesopt_budget(NULL) == 0 && bayesopt_initial_count(NULL) == 0);
     CU_ASSERT(bayesopt_seed(NULL) == 0 && bayesopt_level_count(NULL) == 0);
+    CU_ASSERT(bayesopt_variable_kind(NULL, 0) == BAYESOPT_KIND_REAL);
+    CU_ASSERT_STRING_EQUAL(bayesopt_variable_name(NULL, 0), "");
+    CU_ASSERT_STRING_EQUAL(bayesopt_variable_name(bo, HUGE_COUNT), "");
+    CU_ASSERT(!bayesopt_maximises(NULL));
     CU_ASSERT(bayesopt_dimension(bo, NULL, NULL) == D);
     CU_ASSERT(bayesopt_constraint_count(bo, NULL, NULL) == 0);
     REFUSED(bayesopt_predict(NULL, 1, x, &mean, &sd));
@@ -148,6 +152,7 @@ static void looking(void)
     CU_ASSERT_STRING_EQUAL(bayesopt_phase_name((bayesopt_phase)99), "unknown");
     CU_ASSERT_STRING_EQUAL(bayesopt_state_name((bayesopt_state)99), "unknown");
     CU_ASSERT_STRING_EQUAL(bayesopt_strategy_name((bayesopt_strategy)99), "unknown");
+    CU_ASSERT_STRING_EQUAL(bayesopt_kind_name((bayesopt_kind)99), "unknown");
     CU_ASSERT_STRING_EQUAL(bayesopt_design_name((bayesopt_design_kind)99), "unknown");
     CU_ASSERT_STRING_EQUAL(bayesopt_kernel_name((bayesopt_kernel)99), "unknown");
     CU_ASSERT_STRING_EQUAL(bayesopt_transform_name((bayesopt_transform)99), "unknown");
@@ -293,6 +298,25 @@ static void designs(void)
     REFUSED(bayesopt_design_measure(4, HUGE_COUNT, x, &quality));
 }
 
+static void expressions(void)
+{
+    bayesopt_expression *e = NULL;
+    const char *names[2] = {"a", NULL};
+    bayesopt_expression_free(NULL);
+    REFUSED(bayesopt_expression_create(NULL, 1, names, &e));
+    REFUSED(bayesopt_expression_create("a", 1, NULL, &e));
+    REFUSED(bayesopt_expression_create("a", 1, names, NULL));
+    REFUSED(bayesopt_expression_create("a", 2, names, &e));
+    REFUSED(bayesopt_expression_create("a", HUGE_COUNT, names, &e));
+    CU_ASSERT(isnan(bayesopt_expression_value(NULL, lower)));
+    CU_ASSERT(bayesopt_expression_relation(NULL) == BAYESOPT_RELATION_NONE);
+    CU_ASSERT(!bayesopt_expression_uses(NULL, 0));
+    CU_ASSERT_FATAL(bayesopt_expression_create("a", 1, names, &e) == BAYESOPT_OK);
+    CU_ASSERT(isnan(bayesopt_expression_value(e, NULL)));
+    CU_ASSERT(!bayesopt_expression_uses(e, HUGE_COUNT));
+    bayesopt_expression_free(e);
+}
+
 /* Scalars only; what may be NULL is. */
 static void acquisitions(void)
 {
@@ -308,7 +332,7 @@ static const struct check_case cases[] = {
     {"creating", creating},         {"asking and telling", asking_and_telling},
     {"looking", looking},           {"records", records},
     {"regressions", regressions},   {"designs", designs},
-    {"acquisitions", acquisitions},
+    {"acquisitions", acquisitions}, {"expressions", expressions},
 };
 
 CHECK_MAIN("bayesopt misuse", cases)

@@ -131,11 +131,12 @@ static void print_header(const struct names *names, bool levels)
 static void print_csv(const struct names *names, const struct points *p)
 {
     for (size_t i = 0; i < p->n && p->ids[i]; i++) {
+        char buffer[VALUE_SIZE];
         printf("%llu", (unsigned long long)p->ids[i]);
         if (p->levels)
             printf(",%d", p->levels[i]);
         for (size_t j = 0; j < names->d; j++)
-            printf(",%.17g", p->x[i * names->d + j]);
+            printf(",%s", names_value(names, j, p->x[i * names->d + j], buffer));
         putchar('\n');
     }
 }
@@ -145,7 +146,7 @@ static void print_points_json(const struct names *names, const struct points *p)
     json_t *points = json_array();
     for (size_t i = 0; i < p->n && p->ids[i]; i++) {
         json_t *point = json_pack("{s:I, s:o}", "id", (json_int_t)p->ids[i], "x",
-                                  named_json(names->d, names->variables, p->x + i * names->d));
+                                  point_json(names, p->x + i * names->d));
         if (p->levels)
             json_result_set(point, "level", json_integer(p->levels[i]));
         json_result_append(points, point);

@@ -1,6 +1,7 @@
 #include "config.h"
 
 #include "cli.h"
+#include "csv.h"
 #include "template.h"
 
 #include <errno.h>
@@ -60,10 +61,28 @@ static const struct setting_word NEVER[] = {{"never", 0}, {NULL, 0}};
 static const struct setting_word NO_LOWER[] = {{"none", -INFINITY}, {NULL, 0}};
 static const struct setting_word NO_UPPER[] = {{"none", INFINITY}, {NULL, 0}};
 
+static const struct setting_word KINDS[] = {{"real", CONFIG_REAL},
+                                            {"log", CONFIG_LOG},
+                                            {"integer", CONFIG_INTEGER},
+                                            {"ordinal", CONFIG_ORDINAL},
+                                            {"categorical", CONFIG_CATEGORICAL},
+                                            {"fixed", CONFIG_FIXED},
+                                            {NULL, 0}};
+
 static const struct setting VARIABLE_ROWS[] = {
     ROW(config_variable, "name", TEXT, name, .required = true, .sentence = "of the variable"),
-    ROW(config_variable, "lower", NUMBER, lower, .required = true, .sentence = "lower bound"),
-    ROW(config_variable, "upper", NUMBER, upper, .required = true, .sentence = "upper bound"),
+    ROW(config_variable, "kind", CHOICE, kind, .words = KINDS, .otherwise = "real",
+        .sentence = "what values it takes; log: real, searched on a scale of logarithms"),
+    ROW(config_variable, "lower", NUMBER, lower,
+        .given = offsetof(struct config_variable, bounded_below),
+        .sentence = "lower bound of a real, log or integer one"),
+    ROW(config_variable, "upper", NUMBER, upper,
+        .given = offsetof(struct config_variable, bounded_above), .sentence = "upper bound"),
+    ROW(config_variable, "values", TEXT, labels, .n_least = 1, .n_most = MOST_LABELS,
+        .count = offsetof(struct config_variable, n_labels),
+        .sentence = "of a categorical one, or of an ordinal one in their order"),
+    ROW(config_variable, "value", NUMBER, value, .given = offsetof(struct config_variable, valued),
+        .sentence = "of a fixed one"),
     ROW(config_variable, "group", COUNT, group, .given = offsetof(struct config_variable, grouped),
         .sentence = "of variables with one length scale, from 0 on"),
 };
@@ -86,13 +105,53 @@ static void check_name(struct settings_source *source, const char *name)
                           name);
 }
 
+/* What a kind needs of lower and upper, values and value, and takes of them. */
+static void check_given(struct settings_source *source, const struct config_variable *v)
+{
+    bool labelled = v->kind == CONFIG_ORDINAL || v->kind == CONFIG_CATEGORICAL;
+    bool fixed = v->kind == CONFIG_FIXED, bounded = !labelled && !fixed;
+    const char *kind = KINDS[v->kind].name;
+    const struct {
+        const char *key;
+        bool given, wanted;
+    } keys[] = {{"lower", v->bounded_below, bounded},
+                {"upper", v->bounded_above, bounded},
+                {"values", v->n_labels > 0, labelled},
+                {"value", v->valued, fixed}};
+    for (size_t i = 0; i < COUNT(keys); i++)
+        if (keys[i].wanted && !keys[i].given)
+            settings_complain(source, keys[i].key,
+                              "is missing, which a variable of kind '%s' needs", kind);
+        else if (keys[i].given && !keys[i].wanted)
+            settings_complain(source, keys[i].key,
+                              "is given, which a variable of kind '%s' has not", kind);
+}
+
 static void check_variable(struct settings_source *source, void *target)
 {
     const struct config_variable *v = target;
-    if (!(v->lower < v->upper))
+    bool whole = v->lower == floor(v->lower) && v->upper == floor(v->upper);
+    check_given(source, v);
+    check_name(source, v->name);
+    if (v->bounded_below && v->bounded_above && !(v->lower < v->upper))
         settings_complain(source, "upper", "is %g, expected more than the lower bound %g", v->upper,
                           v->lower);
-    check_name(source, v->name);
+    if (v->kind == CONFIG_LOG && v->bounded_below && !(v->lower > 0))
+        settings_complain(source, "lower", "is %g, expected a positive number for kind 'log'",
+                          v->lower);
+    if (v->kind == CONFIG_INTEGER && v->bounded_below && v->bounded_above && !whole)
+        settings_complain(source, "lower", "and upper are %g and %g, expected whole numbers",
+                          v->lower, v->upper);
+    for (size_t i = 0; i < v->n_labels; i++) {
+        if (!*v->labels[i] || strpbrk(v->labels[i], ",\"\n\r") || *v->labels[i] == ' ')
+            settings_complain(source, "values",
+                              "has '%s', expected texts without commas, quotes and blanks at the "
+                              "beginning",
+                              v->labels[i]);
+        for (size_t k = 0; k < i; k++)
+            if (strcmp(v->labels[i], v->labels[k]) == 0)
+                settings_complain(source, "values", "has '%s' twice", v->labels[i]);
+    }
 }
 
 static const struct settings VARIABLE = {COUNT(VARIABLE_ROWS), VARIABLE_ROWS,
@@ -139,7 +198,12 @@ static const struct setting ROWS[] = {
                     "this one's name with .db"),
     ROW(config, "variables", ROWS, variables, .required = true, .n_least = 1, .n_most = 1000,
         .count = offsetof(struct config, n_variables), .table = &VARIABLE,
-        .size = sizeof(struct config_variable), .sentence = "list of {name, lower, upper, group}"),
+        .size = sizeof(struct config_variable),
+        .sentence = "list of {name, kind, lower, upper, values, value, group}"),
+    ROW(config, "conditions", TEXT, conditions, .n_least = 1, .n_most = MOST_CONDITIONS,
+        .count = offsetof(struct config, n_conditions),
+        .sentence =
+            "that every point satisfies, in the variables' names: \"a + b <= 2\", \"a == 3 * b\""),
     ROW(config, "objective.command", TEXT, command, .required = true,
         .sentence =
             "what to run, by /bin/sh in a folder of its own; {name} of a variable, {id} and "
@@ -155,6 +219,8 @@ static const struct setting ROWS[] = {
                     "3'; without a key the number that ends the last line"),
     ROW(config, "objective.match", CHOICE, match, .words = MATCHES, .otherwise = "equal",
         .sentence = "which counts of several numbers after a key; equal: a failure if they differ"),
+    ROW(config, "objective.maximise", SWITCH, options.maximise, .otherwise = "false",
+        .sentence = "whether the greatest number is sought, not the least"),
     ROW(config, "objective.gradient", TEXT, gradient,
         .sentence = "the derivatives are the numbers after it"),
     ROW(config, "objective.folder", TEXT, folder, .otherwise = "evaluations",
@@ -184,6 +250,10 @@ static const struct setting ROWS[] = {
         .sentence = "in all"),
     ROW(config, "search.initial", COUNT, options.initial_n, .words = BY_RULE,
         .sentence = "of them in the initial design"),
+    ROW(config, "search.first", FILE, first,
+        .sentence = "CSV file of points, a column per variable, which take its first places"),
+    ROW(config, "search.told", SWITCH, options.told_count, .otherwise = "false",
+        .sentence = "whether points told before the first ask take places of it too"),
     ROW(config, "search.design", CHOICE, options.initial_kind, .words = DESIGNS,
         .sentence = "kind of the initial design"),
     ROW(config, "search.seed", COUNT, options.seed, .sentence = "of all random streams"),
@@ -248,7 +318,8 @@ static void check_templates(struct settings_source *source, const struct config 
 /* What is run and how its results are read. */
 static void check_objective(struct settings_source *source, struct config *c)
 {
-    struct names names = {c->n_variables, 0, calloc(c->n_variables + 1, sizeof(char *)), NULL};
+    struct names names = {.d = c->n_variables,
+                          .variables = calloc(c->n_variables + 1, sizeof(char *))};
     for (size_t j = 0; names.variables && j < c->n_variables; j++)
         names.variables[j] = c->variables[j].name;
     if (names.variables) {
@@ -323,29 +394,67 @@ void config_free(struct config *c)
 {
     for (size_t i = 1; i < c->n_templates; i++)
         free(c->templates[i]);
+    for (size_t i = 1; i < c->n_conditions; i++)
+        free(c->conditions[i]);
+    for (size_t j = 0; c->variables && j < c->n_variables; j++)
+        for (size_t i = 1; i < c->variables[j].n_labels; i++)
+            free(c->variables[j].labels[i]);
     if (c->compiled)
         regfree(&c->pattern);
     settings_free(&CONFIG, c);
     free(c->names.variables);
     free(c->names.constraints);
+    free(c->names.labels);
     free(c->bounds);
     free(c->group);
+    free(c->kind);
+    free(c->first_x);
+}
+
+static const bayesopt_kind KIND_OF[] = {
+    [CONFIG_REAL] = BAYESOPT_KIND_REAL,
+    [CONFIG_LOG] = BAYESOPT_KIND_LOG,
+    [CONFIG_INTEGER] = BAYESOPT_KIND_INTEGER,
+    [CONFIG_ORDINAL] = BAYESOPT_KIND_INTEGER,
+    [CONFIG_CATEGORICAL] = BAYESOPT_KIND_CATEGORICAL,
+    [CONFIG_FIXED] = BAYESOPT_KIND_REAL,
+};
+
+/* The points to be evaluated first. */
+static bool read_first(struct config *c)
+{
+    struct csv csv;
+    if (!csv_read(c->first, &csv))
+        return false;
+    c->first_x = malloc((csv.rows + 1) * c->n_variables * sizeof *c->first_x);
+    bool ok = c->first_x ? csv_points(&csv, &c->names, c->first_x) : cli_refuse("out of memory");
+    c->options.n_first = csv.rows;
+    c->options.first_x = c->first_x;
+    csv_free(&csv);
+    return ok;
 }
 
 /* The library's options from what was read. */
 static bool complete(struct config *c)
 {
     size_t d = c->n_variables, m = c->n_constraints;
-    c->names = (struct names){d, m, calloc(d, sizeof(char *)), calloc(m + 1, sizeof(char *))};
+    c->names = (struct names){d, m, calloc(d, sizeof(char *)), calloc(m + 1, sizeof(char *)),
+                              calloc(d, sizeof(struct labels))};
+    c->kind = calloc(d, sizeof *c->kind);
     c->bounds = malloc(2 * (d + m) * sizeof *c->bounds);
     c->group = malloc(d * sizeof *c->group);
-    if (!c->names.variables || !c->names.constraints || !c->bounds || !c->group)
+    if (!c->names.variables || !c->names.constraints || !c->names.labels || !c->kind ||
+        !c->bounds || !c->group)
         return cli_refuse("out of memory");
     for (size_t j = 0; j < d; j++) {
-        c->names.variables[j] = c->variables[j].name;
-        c->bounds[j] = c->variables[j].lower;
-        c->bounds[d + j] = c->variables[j].upper;
-        c->group[j] = c->variables[j].group;
+        struct config_variable *v = &c->variables[j];
+        bool fixed = v->kind == CONFIG_FIXED;
+        c->names.variables[j] = v->name;
+        c->names.labels[j] = (struct labels){v->n_labels, v->labels};
+        c->bounds[j] = fixed ? v->value : v->n_labels ? 0 : v->lower;
+        c->bounds[d + j] = fixed ? v->value : v->n_labels ? (double)v->n_labels - 1 : v->upper;
+        c->kind[j] = KIND_OF[v->kind];
+        c->group[j] = v->group;
     }
     for (size_t k = 0; k < m; k++) {
         c->names.constraints[k] = c->constraints[k].name;
@@ -359,7 +468,11 @@ static bool complete(struct config *c)
     c->options.constraint_lower = c->bounds + 2 * d;
     c->options.constraint_upper = c->bounds + 2 * d + m;
     c->options.n_levels = c->cheap ? 2 : 1;
-    return true;
+    c->options.kind = c->kind;
+    c->options.names = (const char *const *)c->names.variables;
+    c->options.n_conditions = c->n_conditions;
+    c->options.conditions = (const char *const *)c->conditions;
+    return !c->first || read_first(c);
 }
 
 bool config_read(const char *path, struct config *c)

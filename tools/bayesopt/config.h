@@ -11,13 +11,25 @@
 #include <regex.h>
 #include <stdbool.h>
 
-enum { MOST_TEMPLATES = 16 };
+enum { MOST_TEMPLATES = 16, MOST_LABELS = 100, MOST_CONDITIONS = 100 };
+
+/* As the file calls it. */
+enum config_kind {
+    CONFIG_REAL,
+    CONFIG_LOG,
+    CONFIG_INTEGER,
+    CONFIG_ORDINAL,
+    CONFIG_CATEGORICAL,
+    CONFIG_FIXED
+};
 
 struct config_variable {
     char *name;
-    double lower, upper;
-    size_t group;
-    bool grouped;
+    enum config_kind kind;
+    double lower, upper, value;
+    bool bounded_below, bounded_above, valued, grouped;
+    char *labels[MOST_LABELS];
+    size_t n_labels, group;
 };
 
 struct config_constraint {
@@ -34,6 +46,9 @@ struct config {
     char *command, *key, *gradient, *file, *folder, *cheap;
     char *templates[MOST_TEMPLATES];
     size_t n_templates;
+    char *conditions[MOST_CONDITIONS];
+    size_t n_conditions;
+    char *first; /* file of points */
     enum result_match match;
     double timeout; /* seconds, INFINITY: none */
     double *transient_status;
@@ -49,6 +64,8 @@ struct config {
     struct names names; /* borrowed from variables and constraints */
     double *bounds;     /* of variables, of constraints, each lower then upper */
     size_t *group;
+    bayesopt_kind *kind;
+    double *first_x;
 };
 
 extern const struct settings CONFIG;

@@ -1,6 +1,7 @@
 #include "csv.h"
 
 #include "cli.h"
+#include "names.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -129,4 +130,27 @@ bool csv_number(const struct csv *csv, size_t row, size_t column, double *value)
     return (end != text && *end == '\0') ||
            cli_refuse("%s:%zu: %s is '%s', expected a number", csv->path, csv->lines[row],
                       csv->cells[column], text);
+}
+
+bool csv_value(const struct csv *csv, size_t row, size_t column, const struct names *names,
+               size_t j, double *value)
+{
+    if (!names->labels || !names->labels[j].n)
+        return csv_number(csv, row, column, value);
+    const char *text = csv_cell(csv, row, column);
+    return names_parse(names, j, text, value) ||
+           cli_refuse("%s:%zu: %s is '%s', expected one of its values", csv->path, csv->lines[row],
+                      names->variables[j], text);
+}
+
+bool csv_points(const struct csv *csv, const struct names *names, double *x)
+{
+    size_t column;
+    bool ok = true;
+    for (size_t j = 0; j < names->d && ok; j++) {
+        ok = csv_need(csv, names->variables[j], &column);
+        for (size_t i = 0; i < csv->rows && ok; i++)
+            ok = csv_value(csv, i, column, names, j, &x[i * names->d + j]);
+    }
+    return ok;
 }

@@ -23,5 +23,11 @@ bool csv_need(const struct csv *csv, const char *name, size_t *column);
 const char *csv_cell(const struct csv *csv, size_t row, size_t column);
 /* A cell as a number, nan and inf among them, or a sentence with line and column. */
 bool csv_number(const struct csv *csv, size_t row, size_t column, double *value);
+/* The same as a value of variable j, which may have labels. */
+struct names;
+bool csv_value(const struct csv *csv, size_t row, size_t column, const struct names *names,
+               size_t j, double *value);
+/* A column for every variable: x [rows x d]. */
+bool csv_points(const struct csv *csv, const struct names *names, double *x);
 
 #endif

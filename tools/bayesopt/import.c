@@ -109,7 +109,7 @@ static bool read_entry(const bayesopt *bo, const struct names *names, const stru
     bool ok = true;
     e->skipped = has_state(csv, c, row, "pending") || has_state(csv, c, row, "lost");
     for (size_t j = 0; j < names->d && ok && c->has_variables; j++)
-        ok = csv_number(csv, row, c->variables[j], &e->x[j]);
+        ok = csv_value(csv, row, c->variables[j], names, j, &e->x[j]);
     ok = ok && (c->id == SIZE_MAX || read_id(csv, c, row, e)) &&
          (e->skipped || read_values(csv, names, c, row, e));
     e->asked = ok && c->id != SIZE_MAX && find_asked(bo, names, c, e);
@@ -141,13 +141,14 @@ static bool check_bounds(const bayesopt *bo, const struct names *names, const st
 }
 
 static bool tell(bayesopt *bo, const struct names *names, const struct csv *csv,
-                 const struct entry *entries)
+                 const struct entry *entries, bool outside)
 {
     for (size_t i = 0; i < csv->rows; i++) {
         const struct entry *e = &entries[i];
         const bayesopt_result result = {.f = e->f,
                                         .constraints = names->m ? e->constraints : NULL,
-                                        .note = e->note && *e->note ? e->note : NULL};
+                                        .note = e->note && *e->note ? e->note : NULL,
+                                        .outside = outside};
         bayesopt_status status = e->skipped ? BAYESOPT_OK
                                  : e->asked ? bayesopt_tell_result(bo, e->id, &result)
                                             : bayesopt_tell_point_result(bo, e->x, &result, NULL);
@@ -157,7 +158,7 @@ static bool tell(bayesopt *bo, const struct names *names, const struct csv *csv,
     return true;
 }
 
-bool import_table(bayesopt *bo, const struct names *names, const char *path)
+bool import_table(bayesopt *bo, const struct names *names, const char *path, bool outside)
 {
     struct csv csv;
     struct columns columns;
@@ -174,7 +175,8 @@ bool import_table(bayesopt *bo, const struct names *names, const char *path)
         entries[i].constraints = entries[i].x + names->d;
         ok = read_entry(bo, names, &csv, &columns, i, &entries[i]);
     }
-    ok = ok && check_bounds(bo, names, &csv, entries) && tell(bo, names, &csv, entries);
+    ok = ok && (outside || check_bounds(bo, names, &csv, entries)) &&
+         tell(bo, names, &csv, entries, outside);
     free(entries);
     free(numbers);
     columns_free(&columns);

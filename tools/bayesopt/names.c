@@ -30,27 +30,26 @@ bool store_keep(bayesopt *bo, const char *what, const char *text)
 bool names_keep(bayesopt *bo, const struct names *names)
 {
     char entry[40];
-    for (size_t i = 0; i < names->d + names->m; i++) {
-        bool variable = i < names->d;
-        snprintf(entry, sizeof entry, variable ? "variable.%zu" : "constraint.%zu",
-                 1 + (variable ? i : i - names->d));
-        if (!store_keep(bo, entry,
-                        variable ? names->variables[i] : names->constraints[i - names->d]))
-            return false;
+    bool ok = true;
+    for (size_t i = 0; i < names->m && ok; i++) {
+        snprintf(entry, sizeof entry, "constraint.%zu", i + 1);
+        ok = store_keep(bo, entry, names->constraints[i]);
     }
-    return true;
+    for (size_t j = 0; j < names->d && ok; j++)
+        ok = labels_keep(bo, names, j);
+    return ok;
 }
 
 /* The text of an entry, or the short name where the store has none. */
-static bool read_name(const bayesopt *bo, const char *kind, size_t i, char **name)
+static bool read_constraint(const bayesopt *bo, size_t i, char **name)
 {
     char entry[40];
-    snprintf(entry, sizeof entry, "%s.%zu", kind, i + 1);
+    snprintf(entry, sizeof entry, "constraint.%zu", i + 1);
     if (bayesopt_store_get_text(bo, entry, name))
         return failed();
     if (*name)
         return true;
-    snprintf(entry, sizeof entry, "%c%zu", *kind == 'v' ? 'x' : 'c', i + 1);
+    snprintf(entry, sizeof entry, "c%zu", i + 1);
     *name = strdup(entry);
     return *name || cli_refuse("out of memory");
 }
@@ -61,11 +60,15 @@ bool names_read(const bayesopt *bo, struct names *names)
                             .m = bayesopt_constraint_count(bo, NULL, NULL)};
     names->variables = calloc(names->d, sizeof *names->variables);
     names->constraints = calloc(names->m + 1, sizeof *names->constraints);
-    bool ok = (names->variables && names->constraints) || cli_refuse("out of memory");
-    for (size_t i = 0; i < names->d && ok; i++)
-        ok = read_name(bo, "variable", i, &names->variables[i]);
+    names->labels = calloc(names->d, sizeof *names->labels);
+    bool ok =
+        (names->variables && names->constraints && names->labels) || cli_refuse("out of memory");
+    for (size_t j = 0; j < names->d && ok; j++)
+        ok = ((names->variables[j] = strdup(bayesopt_variable_name(bo, j))) ||
+              cli_refuse("out of memory")) &&
+             labels_read(bo, names, j);
     for (size_t i = 0; i < names->m && ok; i++)
-        ok = read_name(bo, "constraint", i, &names->constraints[i]);
+        ok = read_constraint(bo, i, &names->constraints[i]);
     if (!ok)
         names_free(names);
     return ok;
@@ -77,6 +80,12 @@ void names_free(struct names *names)
         free(names->variables[i]);
     for (size_t i = 0; names->constraints && i < names->m; i++)
         free(names->constraints[i]);
+    for (size_t j = 0; names->labels && j < names->d; j++) {
+        for (size_t i = 0; i < names->labels[j].n; i++)
+            free(names->labels[j].texts[i]);
+        free(names->labels[j].texts);
+    }
+    free(names->labels);
     free(names->variables);
     free(names->constraints);
     *names = (struct names){0};

@@ -29,14 +29,15 @@ enum { WIDTH = 1000, HEIGHT = 420, PANEL = 190, SAMPLES = 101, MOST_SLICES = 16 
 static size_t gather(const bayesopt *bo, struct plot_trial *trials)
 {
     bayesopt_point p;
+    double sign = bayesopt_maximises(bo) ? -1 : 1; /* the best is below */
     size_t n = 0;
     for (size_t i = 0; i < bayesopt_count(bo); i++) {
-        if (bayesopt_get(bo, i, &p) ||
+        if (bayesopt_get(bo, i, &p) || p.outside ||
             (p.state != BAYESOPT_STATE_DONE && p.state != BAYESOPT_STATE_FAILED))
             continue;
         struct plot_trial *t = &trials[n++];
         *t = (struct plot_trial){.number = (double)p.id,
-                                 .value = p.f,
+                                 .value = sign * p.f,
                                  .initial = p.phase == BAYESOPT_PHASE_INITIAL ||
                                             p.phase == BAYESOPT_PHASE_EXTERNAL,
                                  .infeasible = !p.feasible,
@@ -54,7 +55,8 @@ static bool draw_history(struct plot *plot, const bayesopt *bo)
     struct plot_trial *trials = calloc(bayesopt_count(bo) + 1, sizeof *trials);
     if (!trials)
         return cli_refuse("out of memory");
-    const struct plot_history history = {gather(bo, trials), trials, NAN, 0, "objective"};
+    const struct plot_history history = {gather(bo, trials), trials, NAN,
+                                         bayesopt_maximises(bo) ? -1 : 1, "objective"};
     bool good = plot_open(plot, WIDTH, HEIGHT, "History of the search");
     if (good)
         plot_history(plot, 0, 0, WIDTH, HEIGHT, &history);
@@ -70,6 +72,7 @@ static bool draw_slice(struct plot *plot, bayesopt *bo, const struct names *name
     static const struct plot_pen mean_pen = {PLOT_BLUE, 2, NULL},
                                  best_pen = {PLOT_OPTIMUM, 1, "4 3"};
     size_t d = names->d;
+    bool discrete = bayesopt_variable_kind(bo, j) >= BAYESOPT_KIND_INTEGER;
     double *x = malloc((5 + d) * SAMPLES * sizeof *x);
     if (!x)
         return cli_refuse("out of memory");
@@ -77,6 +80,8 @@ static bool draw_slice(struct plot *plot, bayesopt *bo, const struct names *name
     double *low = along + SAMPLES, *high = low + SAMPLES;
     for (size_t s = 0; s < SAMPLES; s++) {
         along[s] = f->x.low + (f->x.high - f->x.low) * (double)s / (SAMPLES - 1);
+        if (discrete)
+            along[s] = round(along[s]);
         memcpy(x + s * d, best, d * sizeof *x);
         x[s * d + j] = along[s];
     }
@@ -110,26 +115,30 @@ static bool draw_slices(struct plot *plot, bayesopt *bo, const struct names *nam
         {"model", {PLOT_BLUE, 2, NULL}, PLOT_LINE},
         {"± 2 standard deviations", {PLOT_BLUE, 0, NULL}, PLOT_BAND},
         {"best", {PLOT_OPTIMUM, 1, "4 3"}, PLOT_LINE}};
-    size_t d = names->d, shown = d < MOST_SLICES ? d : MOST_SLICES;
-    size_t columns = (size_t)ceil(sqrt((double)shown)), rows = (shown + columns - 1) / columns;
+    size_t d = names->d, shown = 0, chosen[MOST_SLICES];
     double *best = malloc(3 * d * sizeof *best), *lower = best + d, *upper = best + 2 * d;
-    double height = 30 + (rows < 3 ? 1.5 : 1) * PANEL * (double)rows;
     if (!best)
         return cli_refuse("out of memory");
     bayesopt_dimension(bo, lower, upper);
+    for (size_t j = 0; j < d && shown < MOST_SLICES; j++)
+        if (lower[j] < upper[j])
+            chosen[shown++] = j;
+    size_t columns = (size_t)ceil(sqrt((double)shown)), rows = (shown + columns - 1) / columns;
+    double height = 30 + (rows < 3 ? 1.5 : 1) * PANEL * (double)rows;
     bool good = bayesopt_best(bo, best, NULL, NULL) >= 0 || cli_refuse("%s", bayesopt_last_error());
     good = good && plot_open(plot, WIDTH, height, "The model through the best point");
     if (good)
         plot_legend(plot, 60, 18, false, 3, legend);
-    for (size_t j = 0; j < shown && good; j++) {
+    for (size_t k = 0; k < shown && good; k++) {
+        size_t j = chosen[k];
         double width = (double)WIDTH / (double)columns, tall = (height - 30) / (double)rows;
-        struct plot_frame f = {.left = width * (double)(j % columns) + 64,
-                               .top = 36 + tall * (double)(j / columns),
+        struct plot_frame f = {.left = width * (double)(k % columns) + 64,
+                               .top = 36 + tall * (double)(k / columns),
                                .width = width - 78,
                                .height = tall - 56};
         f.x = (struct plot_axis){.low = lower[j], .high = upper[j]};
         f.y = (struct plot_axis){
-            .low = INFINITY, .high = -INFINITY, .label = j % columns ? NULL : "objective"};
+            .low = INFINITY, .high = -INFINITY, .label = k % columns ? NULL : "objective"};
         good = draw_slice(plot, bo, names, j, best, &f);
         if (!good)
             plot_free(plot);

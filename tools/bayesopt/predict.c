@@ -8,16 +8,13 @@
 #include <string.h>
 
 struct arguments {
-    char *store, *table, *output;
-    double *point;
-    size_t n_point;
+    char *store, *table, *output, *point;
     bool json;
 };
 
 static const struct setting ROWS[] = {
     OPTION("STORE", TEXT, store, .required = true, .sentence = "the file that holds the study"),
-    OPTION("point", NUMBERS, point, .count = offsetof(struct arguments, n_point),
-           .sentence = "variables of one point"),
+    OPTION("point", TEXT, point, .sentence = "variables of one point"),
     OPTION("table", TEXT, table,
            .sentence = "CSV file of points ('-': standard input), a column per variable"),
     OPTION("output", TEXT, output, .letter = 'o', .sentence = "file, instead of standard output"),
@@ -42,23 +39,16 @@ static const struct settings TABLE = {
 static bool read_points(const struct arguments *a, const struct names *names, size_t *n, double **x)
 {
     struct csv csv;
-    size_t d = names->d, column;
+    size_t d = names->d;
     *n = 1;
     *x = NULL;
-    if (a->point && a->n_point != d)
-        return cli_refuse("--point: %zu numbers, expected %zu", a->n_point, d);
     if (a->table && !csv_read(a->table, &csv))
         return false;
     *n = a->table ? csv.rows : 1;
     *x = malloc((*n + 1) * d * sizeof **x);
     bool ok = *x || cli_refuse("out of memory");
-    if (ok && a->point)
-        memcpy(*x, a->point, d * sizeof **x);
-    for (size_t j = 0; j < d && ok && a->table; j++) {
-        ok = csv_need(&csv, names->variables[j], &column);
-        for (size_t i = 0; i < *n && ok; i++)
-            ok = csv_number(&csv, i, column, &(*x)[i * d + j]);
-    }
+    ok = ok && (a->point ? names_parse_point(names, "--point", a->point, *x)
+                         : csv_points(&csv, names, *x));
     if (a->table)
         csv_free(&csv);
     return ok;
@@ -74,12 +64,12 @@ static void print(const struct arguments *a, FILE *out, const struct names *name
         fputs("mean,sd\n", out);
     for (size_t i = 0; i < n; i++) {
         const double *at = x + i * names->d;
+        char buffer[VALUE_SIZE];
         for (size_t j = 0; j < names->d && !a->json; j++)
-            fprintf(out, "%.17g,", at[j]);
+            fprintf(out, "%s,", names_value(names, j, at[j], buffer));
         if (a->json)
             json_array_append_new(points,
-                                  json_pack("{s:o, s:o, s:o}", "x",
-                                            named_json(names->d, names->variables, at), "mean",
+                                  json_pack("{s:o, s:o, s:o}", "x", point_json(names, at), "mean",
                                             number_json(mean[i]), "sd", number_json(sd[i])));
         else
             fprintf(out, "%.17g,%.17g\n", mean[i], sd[i]);

@@ -41,7 +41,7 @@ static int look(int argc, char **argv, const char *usage, bool writes,
     return code;
 }
 
-static json_t *point_json(const struct names *names, const bayesopt_point *p)
+static json_t *row_json(const struct names *names, const bayesopt_point *p)
 {
     json_t *attributes = json_object();
     for (size_t i = 0; i < p->n_attributes; i++) {
@@ -51,10 +51,9 @@ static json_t *point_json(const struct names *names, const bayesopt_point *p)
     }
     return json_pack("{s:I, s:s, s:s, s:i, s:o, s:o, s:o, s:b, s:s, s:o}", "id", (json_int_t)p->id,
                      "phase", bayesopt_phase_name(p->phase), "state", bayesopt_state_name(p->state),
-                     "level", p->level, "x", named_json(names->d, names->variables, p->x), "f",
-                     number_json(p->f), "constraints",
-                     named_json(names->m, names->constraints, p->constraints), "feasible",
-                     p->feasible, "note", p->note, "attributes", attributes);
+                     "level", p->level, "x", point_json(names, p->x), "f", number_json(p->f),
+                     "constraints", named_json(names->m, names->constraints, p->constraints),
+                     "feasible", p->feasible, "note", p->note, "attributes", attributes);
 }
 
 static bool show_best(bayesopt *bo, const struct names *names, const struct arguments *a)
@@ -62,6 +61,7 @@ static bool show_best(bayesopt *bo, const struct names *names, const struct argu
     uint64_t id, lucky;
     double f, least;
     bayesopt_point point;
+    char buffer[VALUE_SIZE];
     bayesopt_status status = bayesopt_best(bo, NULL, &f, &id);
     if (status < 0 || bayesopt_best_told(bo, NULL, &least, &lucky) < 0)
         return cli_refuse("%s", bayesopt_last_error());
@@ -69,7 +69,7 @@ static bool show_best(bayesopt *bo, const struct names *names, const struct argu
         i++;
     bool noisy = lucky != id || f != point.f;
     if (a->json) {
-        json_t *root = point_json(names, &point);
+        json_t *root = row_json(names, &point);
         if (noisy) {
             json_result_set(root, "f", number_json(f));
             json_result_set(root, "told", number_json(point.f));
@@ -85,7 +85,7 @@ static bool show_best(bayesopt *bo, const struct names *names, const struct argu
         printf("which is the model's mean; told there: %.17g; least told: %.17g (point %llu)\n",
                point.f, least, (unsigned long long)lucky);
     for (size_t j = 0; j < names->d; j++)
-        printf("%s = %.17g\n", names->variables[j], point.x[j]);
+        printf("%s = %s\n", names->variables[j], names_value(names, j, point.x[j], buffer));
     for (size_t k = 0; k < names->m; k++)
         printf("%s = %.17g\n", names->constraints[k], point.constraints[k]);
     return true;
@@ -93,13 +93,15 @@ static bool show_best(bayesopt *bo, const struct names *names, const struct argu
 
 int command_best(int argc, char **argv)
 {
-    return look(argc, argv,
-                "usage: bayesopt best STORE [OPTION]...\n"
-                "\n"
-                "Prints the best point so far: the least value within the outcome constraints, or\n"
-                "the least violation when none is within them. With noise it is the point of\n"
-                "least mean, and the least value told stands beside it.\n\n",
-                false, show_best);
+    return look(
+        argc, argv,
+        "usage: bayesopt best STORE [OPTION]...\n"
+        "\n"
+        "Prints the best point so far: the least value within the outcome constraints, or\n"
+        "the least violation when none is within them; when the objective is maximised, the\n"
+        "greatest. With noise it is the point of\n"
+        "least mean, and the least value told stands beside it.\n\n",
+        false, show_best);
 }
 
 static void count_states(const bayesopt *bo, size_t counts[STATES])
@@ -187,6 +189,7 @@ static void quote(FILE *stream, const char *text)
 static void export_csv(FILE *stream, const bayesopt *bo, const struct names *names)
 {
     bayesopt_point p;
+    char buffer[VALUE_SIZE];
     fprintf(stream, "id,phase,state,level");
     for (size_t j = 0; j < names->d; j++)
         fprintf(stream, ",%s", names->variables[j]);
@@ -200,7 +203,7 @@ static void export_csv(FILE *stream, const bayesopt *bo, const struct names *nam
         fprintf(stream, "%llu,%s,%s,%d", (unsigned long long)p.id, bayesopt_phase_name(p.phase),
                 bayesopt_state_name(p.state), p.level);
         for (size_t j = 0; j < names->d; j++)
-            fprintf(stream, ",%.17g", p.x[j]);
+            fprintf(stream, ",%s", names_value(names, j, p.x[j], buffer));
         if (p.state == BAYESOPT_STATE_DONE)
             fprintf(stream, ",%.17g", p.f);
         else
@@ -224,7 +227,7 @@ static bool show_history(bayesopt *bo, const struct names *names, const struct a
         return false;
     json_t *points = a->json ? json_array() : NULL;
     for (size_t i = 0; a->json && !bayesopt_get(bo, i, &p); i++)
-        json_result_append(points, point_json(names, &p));
+        json_result_append(points, row_json(names, &p));
     if (a->json)
         print_json(output.stream, json_pack("{s:o}", "points", points));
     else

@@ -195,6 +195,7 @@ static bool report(const struct runner *r)
     const struct names *names = &r->config.names;
     double f = NAN, *x = malloc(names->d * sizeof *x);
     uint64_t id = 0;
+    char buffer[VALUE_SIZE];
     if (!x)
         return cli_refuse("out of memory");
     bayesopt_status status = bayesopt_best(r->bo, x, &f, &id);
@@ -204,10 +205,10 @@ static bool report(const struct runner *r)
                                      (json_int_t)bayesopt_count(r->bo), "stop",
                                      bayesopt_status_string(r->stop), "id", (json_int_t)id,
                                      "feasible", status == BAYESOPT_OK, "f", number_json(f), "x",
-                                     named_json(names->d, names->variables, x)));
+                                     point_json(names, x)));
     } else if (ok) {
         for (size_t j = 0; j < names->d; j++)
-            printf("%s = %.17g\n", names->variables[j], x[j]);
+            printf("%s = %s\n", names->variables[j], names_value(names, j, x[j], buffer));
         printf("f = %.17g (point %llu%s)\n", f, (unsigned long long)id,
                status ? ", outside the outcome constraints" : "");
     }
@@ -263,23 +264,23 @@ int command_run(int argc, char **argv)
     FILE *out = open_memstream(&usage, &length);
     if (!out)
         return cli_fail("out of memory");
-    fputs(
-        "usage: bayesopt run CONFIG.yaml [OPTION]...\n"
-        "\n"
-        "Minimises what an external command prints. Run again, it continues from its store; a run\n"
-        "that was killed loses nothing but the evaluations then under way, which are repeated.\n"
-        "A failed evaluation (exit status, signal, timeout, no number) is recorded and learnt\n"
-        "from, unless the file calls it transient.\n"
-        "\n"
-        "  variables:\n"
-        "    - {name: x, lower: 0, upper: 1}\n"
-        "  objective:\n"
-        "    command: simulate --x {x}\n"
-        "    key: cw\n"
-        "  search: {evaluations: 100, workers: 2}\n"
-        "\n"
-        "Keys of the file:\n",
-        out);
+    fputs("usage: bayesopt run CONFIG.yaml [OPTION]...\n"
+          "\n"
+          "Minimises, or maximises, what an external command prints. Run again, it continues from "
+          "its store; a run\n"
+          "that was killed loses nothing but the evaluations then under way, which are repeated.\n"
+          "A failed evaluation (exit status, signal, timeout, no number) is recorded and learnt\n"
+          "from, unless the file calls it transient.\n"
+          "\n"
+          "  variables:\n"
+          "    - {name: x, lower: 0, upper: 1}\n"
+          "  objective:\n"
+          "    command: simulate --x {x}\n"
+          "    key: cw\n"
+          "  search: {evaluations: 100, workers: 2}\n"
+          "\n"
+          "Keys of the file:\n",
+          out);
     settings_help(&CONFIG, &r.config, true, out);
     fputs("\nOptions:\n", out);
     fclose(out);

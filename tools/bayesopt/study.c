@@ -97,6 +97,14 @@ static bool is_same_study(const struct config *c, const char *store)
                          c->names.constraints, c->bounds + 2 * d);
         names_free(&names);
     }
+    for (size_t j = 0; j < d && ok; j++)
+        ok = bayesopt_variable_kind(bo, j) == c->kind[j] ||
+             cli_refuse("%s is of another study: variable '%s' is %s there, %s here", store,
+                        c->names.variables[j], bayesopt_kind_name(bayesopt_variable_kind(bo, j)),
+                        bayesopt_kind_name(c->kind[j]));
+    if (ok && bayesopt_maximises(bo) != c->options.maximise)
+        ok = cli_refuse("%s is of another study: its objective is %s", store,
+                        bayesopt_maximises(bo) ? "maximised" : "minimised");
     free(there);
     bayesopt_free(bo);
     return ok;

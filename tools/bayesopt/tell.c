@@ -9,10 +9,10 @@
 #include <string.h>
 
 struct arguments {
-    char *store, *failed, *retry, *table;
-    double *constraints, *point;
-    size_t n_constraints, n_point, n_words;
-    bool json;
+    char *store, *failed, *retry, *table, *point;
+    double *constraints;
+    size_t n_constraints, n_words;
+    bool json, outside;
     char **words; /* after STORE: ID, VALUE */
 };
 
@@ -23,8 +23,9 @@ static const struct setting ROWS[] = {
     OPTION("failed", TEXT, failed, .sentence = "the evaluation failed, for this reason"),
     OPTION("retry", TEXT, retry,
            .sentence = "id of a failed point to be asked again, its failure forgotten"),
-    OPTION("point", NUMBERS, point, .count = offsetof(struct arguments, n_point),
-           .sentence = "variables of an evaluation made elsewhere"),
+    OPTION("point", TEXT, point, .sentence = "variables of an evaluation made elsewhere"),
+    OPTION("outside", SWITCH, outside,
+           .sentence = "it may lie outside of the bounds, where it serves the model alone"),
     OPTION("table", TEXT, table,
            .sentence = "CSV file of results ('-': standard input) with the columns f, one per "
                        "constraint, and id or one per variable or both; also one of 'export'"),
@@ -36,8 +37,8 @@ static const struct settings TABLE = {
         "usage: bayesopt tell STORE ID VALUE [--constraints A,B,...]\n"
         "       bayesopt tell STORE ID --failed REASON\n"
         "       bayesopt tell STORE --retry ID\n"
-        "       bayesopt tell STORE VALUE --point X1,X2,... [--constraints A,B,...]\n"
-        "       bayesopt tell STORE --table FILE.csv\n"
+        "       bayesopt tell STORE VALUE --point X1,X2,... [--constraints A,B,...] [--outside]\n"
+        "       bayesopt tell STORE --table FILE.csv [--outside]\n"
         "\n"
         "Records the result at an asked point, that its evaluation failed, that a failed one is\n"
         "to be repeated, an evaluation made elsewhere, or a table of results. VALUE is a number;\n"
@@ -73,13 +74,18 @@ static bool tell_one(bayesopt *bo, const struct names *names, const struct argum
     if (!a->point && !parse_id(a->words[0], &id))
         return false;
     if (!a->failed && (!parse_value(a->words[a->n_words - 1], &value) ||
-                       !counts(a->n_constraints, names->m, "--constraints") ||
-                       (a->point && !counts(a->n_point, names->d, "--point"))))
+                       !counts(a->n_constraints, names->m, "--constraints")))
         return false;
-    bayesopt_status status = a->failed  ? bayesopt_tell_failed(bo, id, a->failed)
-                             : a->point ? bayesopt_tell_point(bo, a->point, value, a->constraints)
-                                        : bayesopt_tell(bo, id, value, a->constraints);
-    return !status || cli_refuse("%s", bayesopt_last_error());
+    const bayesopt_result result = {
+        .f = value, .constraints = a->constraints, .outside = a->outside};
+    double *x = a->point ? malloc(names->d * sizeof *x) : NULL;
+    bool ok = !a->point || (x && names_parse_point(names, "--point", a->point, x));
+    bayesopt_status status = !ok         ? BAYESOPT_OK
+                             : a->failed ? bayesopt_tell_failed(bo, id, a->failed)
+                             : a->point  ? bayesopt_tell_point_result(bo, x, &result, NULL)
+                                         : bayesopt_tell_result(bo, id, &result);
+    free(x);
+    return ok && (!status || cli_refuse("%s", bayesopt_last_error()));
 }
 
 static bool release(bayesopt *bo, const char *word)
@@ -96,7 +102,7 @@ static bool tell(const struct arguments *a)
     if (!store_open_to_write(a->store, &bo, &names))
         return false;
     bool ok = a->retry   ? release(bo, a->retry)
-              : a->table ? import_table(bo, &names, a->table)
+              : a->table ? import_table(bo, &names, a->table, a->outside)
                          : tell_one(bo, &names, a);
     if (ok && a->json)
         print_json(stdout, json_pack("{s:I}", "evaluations", (json_int_t)bayesopt_count(bo)));

@@ -37,8 +37,9 @@ static bool is_word(const char *text, size_t length)
 
 static void write_field(const struct template_values *v, size_t field, FILE *out)
 {
+    char buffer[VALUE_SIZE];
     if (field < v->names->d)
-        fprintf(out, "%.17g", v->x[field]);
+        fputs(names_value(v->names, field, v->x[field], buffer), out);
     else if (field == v->names->d)
         fprintf(out, "%llu", (unsigned long long)v->id);
     else

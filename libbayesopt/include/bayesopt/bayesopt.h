@@ -12,9 +12,10 @@
  *     }
  *     bayesopt_best(bo, x, &f, NULL);
  *
- * The objective is minimised. All points are in the caller's units; scaling to [0,1]^d is internal.
- * What is proposed depends on the options, the seed and the history alone, so an interrupted run
- * that is resumed from its store continues with the points it would have proposed uninterrupted.
+ * The objective is minimised, or with an option maximised. All points are in the caller's units;
+ * scaling to [0,1]^d is internal. What is proposed depends on the options, the seed and the history
+ * alone, so an interrupted run that is resumed from its store continues with the points it would
+ * have proposed uninterrupted.
  *
  * One object is used by one thread at a time. Several objects, in one process or many, may share
  * one store. Words on ownership: creates (the caller frees with the named function), borrows,
@@ -25,6 +26,7 @@
 
 #include <bayesopt/acquisition.h>
 #include <bayesopt/design.h>
+#include <bayesopt/expression.h>
 #include <bayesopt/gp.h>
 #include <bayesopt/status.h>
 #include <bayesopt/store.h>
@@ -58,6 +60,14 @@ typedef enum bayesopt_state {
     BAYESOPT_STATE_LOST,    /**< told as failed for a reason that is not the point's; not learnt */
 } bayesopt_state;
 
+/** What values a variable takes. */
+typedef enum bayesopt_kind {
+    BAYESOPT_KIND_REAL,        /**< all between its bounds; one that equals the other fixes it */
+    BAYESOPT_KIND_LOG,         /**< the same, searched on a scale of logarithms; positive bounds */
+    BAYESOPT_KIND_INTEGER,     /**< whole numbers, or ranks of values in order; whole bounds */
+    BAYESOPT_KIND_CATEGORICAL, /**< names without order, numbered by whole bounds */
+} bayesopt_kind;
+
 /** Which proposals follow the initial design. */
 typedef enum bayesopt_strategy {
     BAYESOPT_STRATEGY_AUTO, /**< global, trust-region and polishing steps as the history suggests */
@@ -77,6 +87,8 @@ typedef enum bayesopt_acquisition {
 BAYESOPT_API const char *bayesopt_phase_name(bayesopt_phase phase);
 BAYESOPT_API const char *bayesopt_state_name(bayesopt_state state);
 BAYESOPT_API const char *bayesopt_strategy_name(bayesopt_strategy strategy);
+/** Name of a kind ("integer"); "unknown" outside the list. */
+BAYESOPT_API const char *bayesopt_kind_name(bayesopt_kind kind);
 
 /** Options of bayesopt_create(); fill with bayesopt_options_init() first. Arrays are borrowed until
  * bayesopt_create() returns, which copies them; input_user_data is borrowed for the object's life.
@@ -125,6 +137,22 @@ typedef struct bayesopt_options {
     double stop_expected_improvement; /**< stop when the largest expected improvement over the box
                                          is below this many units of f, judged at global steps of
                                          BAYESOPT_ACQUISITION_EI; default 0 = never */
+
+    const bayesopt_kind *kind; /**< [d] of the variables; default NULL = all real */
+    bool maximise;            /**< the objective is maximised: values are told, kept and returned as
+                                   they are; default false */
+    const char *const *names; /**< [d] of the variables, for conditions and messages; default NULL =
+                                   x1, x2, ... */
+    size_t n_conditions;      /**< default 0 */
+    const char *const *conditions; /**< [n_conditions] input constraints as texts, "a + b <= 2" or
+                                        "a == 3 * b": see expression.h. They are kept in the store,
+                                        which therefore needs no callback. An equality holds to 1e-6
+                                        of what its two sides differ by over the box */
+    size_t n_first;                /**< points to be evaluated first; default 0 */
+    const double *first_x; /**< [n_first x d]; they take the first places of the initial design,
+                                whose others keep away from them */
+    bool told_count; /**< points told before the first ask take places of the initial design too,
+                          whose others keep away from them; one level; default false */
 } bayesopt_options;
 
 /** Fills the defaults. */
@@ -134,7 +162,7 @@ BAYESOPT_API void bayesopt_options_init(bayesopt_options *options);
  * Creates an optimisation over the box lower <= x <= upper; release with bayesopt_free().
  * @param d        number of variables, 1 to 1000
  * @param lower    [d] copied, finite
- * @param upper    [d] copied, finite, greater than lower
+ * @param upper    [d] copied, finite, not less than lower; equal: the variable is fixed
  * @param options  NULL: the defaults
  * @return BAYESOPT_ERROR_ARGUMENT with the field at fault, BAYESOPT_ERROR_MEMORY
  */
@@ -185,8 +213,8 @@ BAYESOPT_API bayesopt_status bayesopt_detach(bayesopt *bo);
 /** Makes every pending point whose session is over, detached or not, to be asked again. */
 BAYESOPT_API bayesopt_status bayesopt_reclaim(bayesopt *bo);
 
-/** The same for those that were last asked @p seconds ago or longer, by the clock of the machine: who
- * has asked later may still be at work. Not negative; 0: all. */
+/** The same for those that were last asked @p seconds ago or longer, by the clock of the machine:
+ * who has asked later may still be at work. Not negative; 0: all. */
 BAYESOPT_API bayesopt_status bayesopt_reclaim_stale(bayesopt *bo, double seconds);
 
 /**
@@ -195,9 +223,9 @@ BAYESOPT_API bayesopt_status bayesopt_reclaim_stale(bayesopt *bo, double seconds
  * @param x    [n x d] filled, within the bounds and the input constraints
  * @param ids  [n] filled; greater than 0. If fewer than n points remain of the budget the rest of
  * ids is 0 and the rest of x untouched
- * @return BAYESOPT_OK with at least one point; BAYESOPT_STOP_BUDGET, BAYESOPT_STOP_NO_IMPROVEMENT
- * or BAYESOPT_STOP_EXPECTED_IMPROVEMENT (all positive) with none; BAYESOPT_ERROR_INFEASIBLE if no
- * point satisfies the input constraints
+ * @return BAYESOPT_OK with at least one point; BAYESOPT_STOP_BUDGET, BAYESOPT_STOP_NO_IMPROVEMENT,
+ * BAYESOPT_STOP_EXPECTED_IMPROVEMENT or, without noise, BAYESOPT_STOP_EXHAUSTED (all positive) with
+ * none; BAYESOPT_ERROR_INFEASIBLE if no point satisfies the input constraints
  */
 BAYESOPT_API bayesopt_status bayesopt_ask(bayesopt *bo, size_t n, double *x, uint64_t *ids);
 
@@ -230,6 +258,8 @@ typedef struct bayesopt_result {
     size_t n_attributes;                  /**< default 0 */
     const bayesopt_attribute *attributes; /**< [n_attributes] copied, kept with the value or the
                                              failure and written in the same transaction */
+    bool outside; /**< bayesopt_tell_point_result(): the point may lie outside of the bounds. If it
+                       does it serves the model alone: it is never the best and costs no budget */
 } bayesopt_result;
 
 /**
@@ -259,7 +289,8 @@ BAYESOPT_API bayesopt_status bayesopt_release(bayesopt *bo, uint64_t id);
 
 /**
  * An evaluation made elsewhere (a parent design, an earlier study). It counts against the budget
- * and joins the data; the point may lie outside the input constraints but not outside the bounds.
+ * and joins the data; the point may lie outside the input constraints, and outside the bounds only
+ * if result.outside allows it.
  * @param x            [d] copied
  * @param f            as in bayesopt_tell()
  * @param constraints  as in bayesopt_tell()
@@ -305,6 +336,7 @@ typedef struct bayesopt_point {
     bool feasible;             /**< done, and within the outcome constraints */
     size_t n_attributes;
     const bayesopt_attribute *attributes; /**< [n_attributes] what was told beside the value */
+    bool outside;                         /**< of the bounds: known to the model only */
 } bayesopt_point;
 
 /** Number of points in the history, pending ones included. */
@@ -326,6 +358,15 @@ BAYESOPT_API size_t bayesopt_constraint_count(const bayesopt *bo, double *lower,
 BAYESOPT_API size_t bayesopt_budget(const bayesopt *bo);
 BAYESOPT_API size_t bayesopt_initial_count(const bayesopt *bo);
 BAYESOPT_API uint64_t bayesopt_seed(const bayesopt *bo);
+
+/** Kind of variable j; BAYESOPT_KIND_REAL outside of the list. */
+BAYESOPT_API bayesopt_kind bayesopt_variable_kind(const bayesopt *bo, size_t j);
+
+/** Name of variable j, borrowed for the object's life; "" outside of the list. */
+BAYESOPT_API const char *bayesopt_variable_name(const bayesopt *bo, size_t j);
+
+/** Whether the objective is maximised. */
+BAYESOPT_API bool bayesopt_maximises(const bayesopt *bo);
 
 /** Levels of fidelity, 1 or 2. */
 BAYESOPT_API size_t bayesopt_level_count(const bayesopt *bo);
@@ -360,7 +401,8 @@ typedef struct bayesopt_model_info {
 } bayesopt_model_info;
 
 /** Fits the model to the present history and describes it.
- * @param lengthscale  [d] filled, in the caller's units of x; NULL allowed */
+ * @param lengthscale  [d] filled, in the caller's units of x: with BAYESOPT_KIND_LOG of log x, with
+ * BAYESOPT_KIND_CATEGORICAL of the distance 1 of two that differ; NULL allowed */
 BAYESOPT_API bayesopt_status bayesopt_model(bayesopt *bo, bayesopt_model_info *info,
                                             double *lengthscale);
 

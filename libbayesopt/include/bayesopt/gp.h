@@ -4,10 +4,11 @@
  * gradients, maximum a posteriori hyper-parameters. Usable alone.
  *
  * Covariance of the data: K = sf2 g(r) + (sn2 + jitter) I, r^2 = sum_j ((x_j - x'_j)/l_j)^2, with g
- * one of bayesopt_kernel. Rasmussen and Williams, Gaussian Processes for Machine Learning, 2006,
- * ch. 2, 5. Matrices are worked on by OpenBLAS and LAPACK: with the same number of its threads
- * results have the same bits, with another they agree to rounding. A few hundred points gain
- * nothing from threads; programs that run several regressions side by side set
+ * one of bayesopt_kernel; for a categorical variable the difference is 0 or 1, which keeps r a
+ * Euclidean distance and K positive definite. Rasmussen and Williams, Gaussian Processes for
+ * Machine Learning, 2006, ch. 2, 5. Matrices are worked on by OpenBLAS and LAPACK: with the same
+ * number of its threads results have the same bits, with another they agree to rounding. A few
+ * hundred points gain nothing from threads; programs that run several regressions side by side set
  * OPENBLAS_NUM_THREADS=1.
  */
 #ifndef BAYESOPT_GP_H
@@ -96,6 +97,10 @@ typedef struct bayesopt_gp_options {
     size_t starts;         /**< starts with one length scale of a cold fit; default 3 */
     size_t evaluations;    /**< likelihood evaluations per start; default 60 */
     uint64_t seed;         /**< of the random starts; default 1 */
+    const bool
+        *categorical; /**< [d] copied; variables whose values are names without order: any
+                         two that differ are 1 apart in r, that is 1/l_j, which is the
+                         distance of their one-hot codes up to a factor; default NULL: none */
 } bayesopt_gp_options;
 
 BAYESOPT_API void bayesopt_gp_options_init(bayesopt_gp_options *options);

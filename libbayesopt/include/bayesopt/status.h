@@ -28,6 +28,7 @@ enum {
     BAYESOPT_MOST_VARIABLES = 1000,   /**< d */
     BAYESOPT_MOST_POINTS = 1000000,   /**< n of a design, of a batch, of the data of a regression */
     BAYESOPT_MOST_CONSTRAINTS = 1000, /**< of outcome, input and linear constraints, each */
+    BAYESOPT_MOST_VALUES = 1000000,   /**< of an integer or categorical variable */
 };
 
 /** The one list of codes: X(name, value, text). */
@@ -43,7 +44,8 @@ enum {
     X(BAYESOPT_STOP_BUDGET, 1, "the budget of evaluations is spent")                               \
     X(BAYESOPT_STOP_NO_IMPROVEMENT, 2, "no improvement for long")                                  \
     X(BAYESOPT_STOP_EXPECTED_IMPROVEMENT, 3, "the expected improvement is small")                  \
-    X(BAYESOPT_NONE_FEASIBLE, 4, "no evaluation satisfies the outcome constraints")
+    X(BAYESOPT_NONE_FEASIBLE, 4, "no evaluation satisfies the outcome constraints")                \
+    X(BAYESOPT_STOP_EXHAUSTED, 5, "every point that the variables allow has been asked")
 
 typedef enum bayesopt_status {
 #define BAYESOPT_STATUS_ENUM(name, value, text) name = value,
