@@ -157,6 +157,19 @@ static void test_killed(void)
     printf("%d kills, progress in %d sessions ", kills, useful);
 }
 
+/* What the status of a run says, beside its record. */
+static void check_status(const char *name, const char *state, size_t n)
+{
+    char folder[200], words[80];
+    runner_path(&runner, name, folder, sizeof folder);
+    const char *const status[] = {"status", folder, "--json", NULL};
+    CU_ASSERT_EQUAL(runner_run(&runner, status), 0);
+    snprintf(words, sizeof words, "\"state\": \"%s\"", state);
+    CU_ASSERT_PTR_NOT_NULL(strstr(runner.out, words));
+    snprintf(words, sizeof words, "\"evaluated\": %zu,\n  \"budget\": 27", n);
+    CU_ASSERT_PTR_NOT_NULL(strstr(runner.out, words));
+}
+
 /* Two sessions cannot work on one folder. */
 static void test_two_sessions(void)
 {
@@ -170,6 +183,8 @@ static void test_two_sessions(void)
         read_record("twice", &record);
     }
     kill(first, SIGSTOP);
+    read_record("twice", &record);
+    check_status("twice", "searching", record.n);
     int code = runner_run(&runner, run);
     CU_ASSERT_EQUAL(code, 1);
     CU_ASSERT_PTR_NOT_NULL(strstr(runner.err, "another hullopt is at work"));
@@ -196,12 +211,14 @@ static void test_stopped(void)
         CU_ASSERT_PTR_NOT_NULL(strstr(runner.err, "search: "));
         read_record("stopped", &before);
         CU_ASSERT_TRUE(before.n > 0 && before.n < 27);
+        check_status("stopped", "interrupted", before.n);
     }
     CU_ASSERT_EQUAL(runner_run(&runner, run), 0);
     CU_ASSERT_PTR_NOT_NULL(strstr(runner.err, "search: 100 %"));
     read_record("stopped", &after);
     CU_ASSERT_EQUAL(after.n, 27);
     CU_ASSERT_TRUE(same_prefix(&before, &after));
+    check_status("stopped", "search ended", 27);
 }
 
 static const struct check_case cases[] = {

@@ -24,6 +24,8 @@ int report_command(const struct options *options);
 int init_command(const struct options *options);
 /* Reads all that a run reads, evaluates the parent, tells what would be done. */
 int check_command(const struct options *options);
+/* Where a run stands, also while it is at work. Writes nothing. */
+int status_command(const struct options *options);
 /* Offers the problem as a model of UM-Bridge until it is told to stop. */
 int serve_command(const struct options *options);
 

@@ -101,3 +101,16 @@ void folder_abandon(struct folder *folder)
     }
     folder_close(folder);
 }
+
+long folder_holder(const char *path)
+{
+    struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+    char *lock = folder_join(path, ".lock");
+    int descriptor = lock ? open(lock, O_RDONLY) : -1;
+    bool held =
+        descriptor >= 0 && fcntl(descriptor, F_GETLK, &whole) == 0 && whole.l_type != F_UNLCK;
+    if (descriptor >= 0)
+        close(descriptor);
+    free(lock);
+    return held ? (long)whole.l_pid : 0;
+}

@@ -16,6 +16,9 @@ void folder_close(struct folder *folder);
 /* After a failure that left no result: removes what folder_open made. */
 void folder_abandon(struct folder *folder);
 
+/* The process that holds a folder; 0: none, or none that can be seen. */
+long folder_holder(const char *path);
+
 /* PATH/NAME, allocated for the caller. */
 char *folder_join(const char *path, const char *name);
 

@@ -12,6 +12,7 @@ static const char HELP[] =
     "       hullopt check CONFIG.yaml [options]\n"
     "       hullopt run CONFIG.yaml --out DIR [--resume] [options]\n"
     "       hullopt report DIR [options]\n"
+    "       hullopt status DIR [options]\n"
     "       hullopt serve CONFIG.yaml [options]\n"
     "\n"
     "init    writes a configuration with every key, its meaning and its default.\n"
@@ -26,6 +27,7 @@ static const char HELP[] =
     "report  writes all files of DIR but run.db again, also of a run that is not finished; into\n"
     "        another folder by --out. Of one that may not be written it prints the figures "
     "alone.\n"
+    "status  tells how far the run in DIR is, also while it is at work. Writes nothing.\n"
     "serve   offers the problem of CONFIG.yaml as a model of UM-Bridge: latent variables in; C_w,\n"
     "        constraints (<= 0 where kept) and particulars out. Stops on SIGINT and SIGTERM.\n";
 
@@ -72,6 +74,11 @@ static const struct setting REPORT[] = {
     ROW(TEXT, out, "folder for the files; by default that of the run", .option = "out"),
     JSON,
 };
+static const struct setting STATUS[] = {
+    HEADING("status"),
+    ROW(TEXT, path, "folder of the run", .option = "DIR", .required = true),
+    JSON,
+};
 static const struct setting_word OF_PORT[] = {{"of $PORT, or 4242", -1}, {NULL, 0}};
 static const struct setting SERVE[] = {
     HEADING("serve"),
@@ -94,8 +101,8 @@ static const struct command {
     const char *name;
     struct settings table;
     int (*run)(const struct options *options);
-} COMMANDS[] = {COMMAND(init, INIT), COMMAND(check, CHECK), COMMAND(run, RUN),
-                COMMAND(report, REPORT), COMMAND(serve, SERVE)};
+} COMMANDS[] = {COMMAND(init, INIT),     COMMAND(check, CHECK),   COMMAND(run, RUN),
+                COMMAND(report, REPORT), COMMAND(status, STATUS), COMMAND(serve, SERVE)};
 enum { N_COMMANDS = sizeof COMMANDS / sizeof *COMMANDS };
 
 /* The options of all commands. */
@@ -122,7 +129,7 @@ static int run_hullopt(int argc, char **argv)
 {
     struct options options = {.froude = NAN, .overrides = {-1, -1}, .start = cli_seconds()};
     if (argc < 2)
-        return cli_usage("no command, expected init, check, run, report or serve");
+        return cli_usage("no command, expected init, check, run, report, status or serve");
     if (strcmp(argv[1], "--help") == 0)
         return print_help(&options);
     if (strcmp(argv[1], "--version") == 0)
@@ -137,7 +144,8 @@ static int run_hullopt(int argc, char **argv)
         settings_free(&command->table, &options);
         return code;
     }
-    return cli_usage("unknown command '%s', expected init, check, run, report or serve", argv[1]);
+    return cli_usage("unknown command '%s', expected init, check, run, report, status or serve",
+                     argv[1]);
 }
 
 int main(int argc, char **argv)

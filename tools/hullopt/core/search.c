@@ -8,8 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Designs that the search may evaluate, the parent among them. */
-static size_t budget(const struct config *config)
+size_t search_budget(const struct config *config)
 {
     return 1 + (config->method == SEARCH_BAYESIAN ? config->initial : 0) + config->iterations;
 }
@@ -24,7 +23,7 @@ bool search_open(struct problem *problem, const char *path, struct record *recor
     options.seed = config->search_seed;
     options.initial_kind = config->design;
     options.initial_n = config->initial;
-    options.max_evaluations = budget(config);
+    options.max_evaluations = search_budget(config);
     options.strategy = config->strategy;
     options.n_input_constraints = limits_count(config);
     options.input_constraint = limits_evaluate;
@@ -90,7 +89,7 @@ static bool begin(struct search *s)
 void search_show(const struct search *s, const char *what)
 {
     char detail[200];
-    size_t all = budget(s->problem->config);
+    size_t all = search_budget(s->problem->config);
     snprintf(detail, sizeof detail, "%zu of %zu, %zu failed, best C_w %.4e (%+.1f %%)%s%s", s->done,
              all, s->failed, s->best, 100 * (s->best / s->parent.cw - 1), what ? ", " : "",
              what ? what : "");

@@ -4,6 +4,9 @@
 
 #include "core/record.h"
 
+/* Designs that a search may evaluate, the parent among them. */
+size_t search_budget(const struct config *config);
+
 /* Opens the record of a run at path, new or resumed, with the optimisation of the problem. The
  * problem must stay where it is as long as the record is open. */
 bool search_open(struct problem *problem, const char *path, struct record *record);
