@@ -153,7 +153,8 @@ static void parse_number(struct parser *p)
     double value = strtod(p->at, &end);
     /* strtod() also takes hexadecimal numbers, and "1e5" of a name that begins so. */
     bool hexadecimal = p->at[0] == '0' && tolower((unsigned char)p->at[1]) == 'x';
-    if (hexadecimal || end == p->at || !isfinite(value) || isalpha((unsigned char)*end) || *end == '_') {
+    if (hexadecimal || end == p->at || !isfinite(value) || isalpha((unsigned char)*end) ||
+        *end == '_') {
         fail(p, "a number");
         return;
     }

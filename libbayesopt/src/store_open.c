@@ -6,8 +6,8 @@
 #include <string.h>
 
 /* The one version of the schema, kept as entry 'format'. 1: version 0.1.0 of the library, without
- * texts, arrays and attributes. */
-enum { FORMAT = 2 };
+ * texts, arrays and attributes; 2: without signs of life. */
+enum { FORMAT = 3 };
 
 static const char schema_1[] =
     "CREATE TABLE bayesopt_meta(key TEXT PRIMARY KEY, value BLOB NOT NULL) WITHOUT ROWID;"
@@ -26,6 +26,8 @@ static const char schema_2[] =
     "CREATE TABLE bayesopt_attributes(list TEXT NOT NULL, row INTEGER NOT NULL,"
     " position INTEGER NOT NULL, name TEXT NOT NULL, number REAL, text TEXT,"
     " PRIMARY KEY(list, row, name)) WITHOUT ROWID;";
+
+static const char schema_3[] = "ALTER TABLE bayesopt_points ADD COLUMN heard INTEGER";
 
 /* One integer from a query without parameters. */
 static bayesopt_status query_count(struct store *store, const char *sql, int64_t *count)
@@ -72,23 +74,27 @@ static bayesopt_status create_tables(struct bayesopt *bo)
     if (!status)
         status = store_execute(bo->store, schema_2);
     if (!status)
+        status = store_execute(bo->store, schema_3);
+    if (!status)
         status = put_format(bo->store);
     return status ? status : store_put_problem(bo);
 }
 
 /* The command of version 0.1.0 kept names of variables and constraints in a table of its own. */
-static bayesopt_status migrate(struct store *store)
+static bayesopt_status migrate(struct store *store, int format)
 {
     int64_t names = 0;
-    bayesopt_status status = store_execute(store, schema_2);
+    bayesopt_status status = store_execute(store, format < 2 ? schema_2 : "");
     if (!status)
         status = query_count(
             store, "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name = 'names'",
             &names);
-    if (!status && names)
+    if (!status && names && format < 2)
         status = store_execute(store, "INSERT INTO bayesopt_texts(name, value) "
                                       "SELECT kind || '.' || (i + 1), name FROM names;"
                                       "DROP TABLE names");
+    if (!status)
+        status = store_execute(store, schema_3);
     return status ? status : put_format(store);
 }
 
@@ -119,7 +125,7 @@ static bayesopt_status classify(struct store *store, int *format)
         return bayesopt_fail(BAYESOPT_ERROR_FORMAT,
                              "%s: a newer libbayesopt wrote it: format %g, this one knows 1 to %d",
                              store->path, found, FORMAT);
-    if (!status && found != 1 && found != 2)
+    if (!status && found != 1 && found != 2 && found != 3)
         return bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: entry 'format' is damaged", store->path);
     *format = (int)found;
     return status;
@@ -180,7 +186,7 @@ bayesopt_status bayesopt_open_store(bayesopt *bo, const char *path)
     if (!status)
         status = classify(bo->store, &format);
     if (!status && format && format < FORMAT)
-        status = migrate(bo->store);
+        status = migrate(bo->store, format);
     if (!status)
         status = format ? store_compare_problem(bo) : create_tables(bo);
     if (!status)
@@ -211,7 +217,7 @@ void store_close(struct bayesopt *bo)
 }
 
 /* Puts a copy in memory, brought up to date, in the place of an older file. */
-static bayesopt_status migrate_copy(struct store *store)
+static bayesopt_status migrate_copy(struct store *store, int format)
 {
     sqlite3 *copy = NULL, *file = store->db;
     sqlite3_backup *backup = NULL;
@@ -228,7 +234,7 @@ static bayesopt_status migrate_copy(struct store *store)
     }
     sqlite3_close(file);
     store->db = copy;
-    return migrate(store);
+    return migrate(store, format);
 }
 
 /* An existing store and the optimisation it describes, which does not hold it yet. */
@@ -244,7 +250,7 @@ static bayesopt_status open_existing(const char *path, int flags,
     if (!status && !format)
         status = bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: an empty database, not a store", path);
     if (!status && format < FORMAT)
-        status = migrate_copy(*store);
+        status = migrate_copy(*store, format);
     if (!status)
         status = store_get_problem(*store, input_constraint, input_user_data, bo);
     if (status)

@@ -7,7 +7,7 @@ expect 0 "$tool" --help
 expect 0 "$tool" --version
 expect 2 "$tool"
 expect 2 "$tool" nonsense
-for command in run ask tell release best status plot design export predict; do
+for command in run ask tell release heartbeat best status plot design export predict; do
     expect 0 "$tool" $command --help
     expect 2 "$tool" $command --nonsense
 done
@@ -276,11 +276,13 @@ fi
 expect 0 "$tool" ask jobs.db --lower 0 --upper 1 -n 2
 expect 0 "$tool" ask jobs.db --reissue --stale 3600
 grep -q '^3,' out || fail "a point asked just now was given out again: $(cat out)"
-sleep 2
-expect 0 "$tool" ask jobs.db --reissue --stale 2
-grep -q '^1,' out || fail "a stale point was not given out: $(cat out)"
-expect 0 "$tool" ask jobs.db --reissue --stale 2
-grep -q '^2,' out || fail "a point was given out twice: $(cat out)"
+expect 0 "$tool" heartbeat jobs.db 2
+expect 1 "$tool" heartbeat jobs.db 99
+expect 2 "$tool" heartbeat jobs.db
+expect 0 "$tool" status jobs.db
+holds 'point 2 waits to be told; asked by process [0-9]* on .*, asked [0-9]* s ago, heard of [0-9]* s ago'
+expect 0 "$tool" ask jobs.db --reissue
+grep -q '^1,' out || fail "a point that waits was not given out: $(cat out)"
 expect 2 "$tool" ask jobs.db --stale 2
 expect 2 "$tool" tell hand.db
 expect 1 "$tool" ask none.db

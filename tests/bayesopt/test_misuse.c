@@ -74,9 +74,15 @@ static void asking_and_telling(void)
     int level;
     bayesopt_result result = {.f = 1};
     bayesopt_point point;
+    bayesopt_holder holder;
     REFUSED(bayesopt_open_store(bo, NULL));
     REFUSED(bayesopt_detach(NULL));
     REFUSED(bayesopt_reclaim(NULL));
+    REFUSED(bayesopt_heartbeat(NULL, 0));
+    REFUSED(bayesopt_heartbeat(bo, UINT64_MAX));
+    REFUSED(bayesopt_get_holder(NULL, 1, &holder));
+    REFUSED(bayesopt_get_holder(bo, 1, &holder));
+    REFUSED(bayesopt_get_holder(bo, 1, NULL));
     REFUSED(bayesopt_reclaim_stale(NULL, 0));
     REFUSED(bayesopt_reclaim_stale(bo, -1));
     REFUSED(bayesopt_reclaim_stale(bo, NAN));

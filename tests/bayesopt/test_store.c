@@ -324,23 +324,30 @@ static void expect_text(const bayesopt *bo, const char *name, const char *expect
     free(text);
 }
 
-/* A store of version 0.1.0 has no entries for the model's later options and none of the later
- * tables. The caller's own tables are left alone. */
-static const char to_version_1[] =
-    "DELETE FROM bayesopt_meta WHERE key IN ('model', 'group');"
+/* A store of format 2 has no signs of life and no kinds of variables; one of version 0.1.0 has no
+ * entries for the model's later options either and none of the later tables. The caller's own
+ * tables are left alone. */
+static const char to_format_2[] =
+    "DELETE FROM bayesopt_meta WHERE key IN ('kinds', 'first_x');"
+    "ALTER TABLE bayesopt_points DROP COLUMN heard;"
+    "INSERT INTO bayesopt_texts VALUES('variable.1', 'angle');"
+    "UPDATE bayesopt_meta SET value = x'0000000000000040' WHERE key = 'format';"; /* 2 */
+static const char to_format_1[] =
+    "DELETE FROM bayesopt_meta WHERE key IN ('model', 'group', 'kinds', 'first_x');"
+    "ALTER TABLE bayesopt_points DROP COLUMN heard;"
     "DROP TABLE bayesopt_texts; DROP TABLE bayesopt_arrays; DROP TABLE bayesopt_attributes;"
     "UPDATE bayesopt_meta SET value = x'000000000000f03f' WHERE key = 'format';" /* 1 */
     "CREATE TABLE names(kind TEXT, i INTEGER, name TEXT NOT NULL, PRIMARY KEY(kind, i));"
     "INSERT INTO names VALUES('variable', 0, 'angle');";
 
-static void older_stores_go_on(void)
+static void older_store_goes_on(const char *made_older)
 {
     static char before[1 << 20], after[1 << 20];
     fresh_path("older");
     bayesopt *bo = open_store();
     run(bo, 12);
     bayesopt_free(bo);
-    execute(to_version_1);
+    execute(made_older);
     /* To look at it nothing is changed in the file. */
     size_t n = file_bytes(before, sizeof before);
     CU_ASSERT_EQUAL_FATAL(bayesopt_open_read(path, &bo), BAYESOPT_OK);
@@ -361,6 +368,12 @@ static void older_stores_go_on(void)
     remove(path);
 }
 
+static void older_stores_go_on(void)
+{
+    older_store_goes_on(to_format_1);
+    older_store_goes_on(to_format_2);
+}
+
 static void newer_stores_are_refused(void)
 {
     bayesopt *bo = NULL;
@@ -369,7 +382,7 @@ static void newer_stores_are_refused(void)
     run(bo, 3);
     bayesopt_free(bo);
     bo = NULL;
-    execute("UPDATE bayesopt_meta SET value = x'0000000000000840' WHERE key = 'format'"); /* 3 */
+    execute("UPDATE bayesopt_meta SET value = x'0000000000001040' WHERE key = 'format'"); /* 4 */
     CU_ASSERT_EQUAL(bayesopt_open(path, NULL, NULL, &bo), BAYESOPT_ERROR_FORMAT);
     CU_ASSERT_PTR_NOT_NULL(strstr(bayesopt_last_error(), "newer"));
     CU_ASSERT_EQUAL(bayesopt_open_read(path, &bo), BAYESOPT_ERROR_FORMAT);

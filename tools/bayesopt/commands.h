@@ -15,6 +15,7 @@ int command_run(int argc, char **argv);
 int command_ask(int argc, char **argv);
 int command_tell(int argc, char **argv);
 int command_release(int argc, char **argv);
+int command_heartbeat(int argc, char **argv);
 int command_predict(int argc, char **argv);
 int command_best(int argc, char **argv);
 int command_status(int argc, char **argv);

@@ -157,12 +157,16 @@ static void check_variable(struct settings_source *source, void *target)
 static const struct settings VARIABLE = {COUNT(VARIABLE_ROWS), VARIABLE_ROWS,
                                          .check = check_variable};
 
+static const struct setting_word NEXT[] = {{"next", 0}, {NULL, 0}};
+
 static const struct setting CONSTRAINT_ROWS[] = {
     ROW(config_constraint, "name", TEXT, name, .required = true, .sentence = "in the output"),
     ROW(config_constraint, "lower", NUMBER, lower, .words = NO_LOWER, .otherwise = "none",
         .sentence = "least allowed"),
     ROW(config_constraint, "upper", NUMBER, upper, .words = NO_UPPER, .otherwise = "none",
         .sentence = "most allowed"),
+    ROW(config_constraint, "output", COUNT, output, .words = NEXT, .otherwise = "next",
+        .sentence = "which of the outputs of a model it is"),
 };
 
 static void check_constraint(struct settings_source *source, void *target)
@@ -204,10 +208,20 @@ static const struct setting ROWS[] = {
         .count = offsetof(struct config, n_conditions),
         .sentence =
             "that every point satisfies, in the variables' names: \"a + b <= 2\", \"a == 3 * b\""),
-    ROW(config, "objective.command", TEXT, command, .required = true,
+    ROW(config, "objective.command", TEXT, command,
         .sentence =
             "what to run, by /bin/sh in a folder of its own; {name} of a variable, {id} and "
             "{level} are replaced, {{ is a brace"),
+    ROW(config, "objective.url", TEXT, url,
+        .sentence = "in place of a command: a server of UM-Bridge models, http://host:4242, which "
+                    "takes as many requests at once as there are workers"),
+    ROW(config, "objective.model", TEXT, model, .sentence = "name of the model there"),
+    ROW(config, "objective.config", TEXT, model_config,
+        .sentence = "its settings, a JSON object: '{\"fidelity\": 3}'"),
+    ROW(config, "objective.output", COUNT, output, .least = 1, .most = 1000000, .otherwise = "1",
+        .sentence = "which of its outputs counts"),
+    ROW(config, "objective.gradients", SWITCH, use_gradient, .otherwise = "true",
+        .sentence = "whether derivatives are asked for where the model has them"),
     ROW(config, "objective.template", FILE, templates, .n_least = 1, .n_most = MOST_TEMPLATES,
         .count = offsetof(struct config, n_templates),
         .sentence = "input files copied into the folder with the same replaced"),
@@ -315,6 +329,40 @@ static void check_templates(struct settings_source *source, const struct config 
     }
 }
 
+/* A model in place of a command: what goes with which. */
+static void check_model(struct settings_source *source, const struct config *c)
+{
+    const struct {
+        const char *key;
+        bool given;
+    } others[] = {{"objective.command", c->command},   {"objective.template", c->n_templates > 0},
+                  {"objective.file", c->file},         {"objective.key", c->key},
+                  {"objective.gradient", c->gradient}, {"levels.cheap", c->cheap},
+                  {"objective.model", c->model},       {"objective.config", c->model_config}};
+    for (size_t i = 0; i < COUNT(others); i++)
+        if (others[i].given && (i < 6) == (c->url != NULL))
+            settings_complain(source, others[i].key,
+                              c->url ? "is given beside objective.url"
+                                     : "is given without objective.url");
+    if (!c->url && !c->command && c->n_variables) /* the file is read */
+        settings_complain(source, "objective.command", "is missing, and so is objective.url");
+    if (c->url && !c->model)
+        settings_complain(source, "objective.model", "is missing");
+    json_t *json = c->model_config ? json_loads(c->model_config, 0, NULL) : NULL;
+    if (c->model_config && !json_is_object(json))
+        settings_complain(source, "objective.config", "is '%s', expected a JSON object",
+                          c->model_config);
+    json_decref(json);
+    double number;
+    for (size_t j = 0; j < c->n_variables && c->url; j++)
+        for (size_t i = 0; i < c->variables[j].n_labels; i++)
+            if (!cli_parse_double(c->variables[j].labels[i], &number))
+                settings_complain(source, "variables",
+                                  "has '%s' with the value '%s'; a model takes "
+                                  "numbers",
+                                  c->variables[j].name, c->variables[j].labels[i]);
+}
+
 /* What is run and how its results are read. */
 static void check_objective(struct settings_source *source, struct config *c)
 {
@@ -329,6 +377,7 @@ static void check_objective(struct settings_source *source, struct config *c)
         check_templates(source, c, &names);
     }
     free(names.variables);
+    check_model(source, c);
     /* Whatever lies outside of the fresh folder may be of another evaluation. */
     if (c->file && (*c->file == '/' || strstr(c->file, "..")))
         settings_complain(source, "objective.file",
@@ -511,7 +560,15 @@ char *config_folder(const struct config *c)
     return beside(c, c->folder);
 }
 
+size_t config_output(const struct config *c, size_t k)
+{
+    size_t output = c->output;
+    for (size_t i = 0; i <= k; i++)
+        output = c->constraints[i].output ? c->constraints[i].output : output + 1;
+    return output;
+}
+
 bool config_knows_transient(const struct config *c)
 {
-    return c->n_transient_status || c->transient_pattern || c->transient_timeout;
+    return c->url || c->n_transient_status || c->transient_pattern || c->transient_timeout;
 }

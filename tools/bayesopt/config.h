@@ -35,6 +35,7 @@ struct config_variable {
 struct config_constraint {
     char *name;
     double lower, upper;
+    size_t output; /* of a model, from 1; 0: the next one */
 };
 
 struct config {
@@ -44,6 +45,9 @@ struct config {
     struct config_constraint *constraints;
     size_t n_constraints;
     char *command, *key, *gradient, *file, *folder, *cheap;
+    char *url, *model, *model_config; /* in place of a command */
+    size_t output;                    /* of the model, from 1 */
+    bool use_gradient;                /* of a model that has one */
     char *templates[MOST_TEMPLATES];
     size_t n_templates;
     char *conditions[MOST_CONDITIONS];
@@ -79,6 +83,8 @@ void config_free(struct config *config);
 char *config_store(const struct config *config);
 /* Where the working folders are; the caller frees. NULL: out of memory. */
 char *config_folder(const struct config *config);
+/* Output of a model that constraint k is, from 1. */
+size_t config_output(const struct config *config, size_t k);
 /* Whether the file tells transient failures from permanent ones. */
 bool config_knows_transient(const struct config *config);
 /* The optimisation it describes, on the store; refuses a store of another study. */

@@ -11,6 +11,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -59,34 +63,101 @@ static bool make_folder(const struct config *c, struct evaluation *e)
     return ok;
 }
 
-/* In the child: working folder, output files, a process group of its own to be killed as one. */
-static void become(const struct evaluation *e, const char *command)
+/* Output files and no input, in the working folder. */
+static bool redirect(const struct evaluation *e)
 {
-    setpgid(0, 0);
     if (chdir(e->folder) != 0)
-        _exit(127);
+        return false;
     int out = open("stdout", O_WRONLY | O_CREAT | O_TRUNC, 0666);
     int err = open("stderr", O_WRONLY | O_CREAT | O_TRUNC, 0666);
     int in = open("/dev/null", O_RDONLY);
-    if (out < 0 || err < 0 || in < 0 || dup2(in, 0) < 0 || dup2(out, 1) < 0 || dup2(err, 2) < 0)
+    return out >= 0 && err >= 0 && in >= 0 && dup2(in, 0) >= 0 && dup2(out, 1) >= 0 &&
+           dup2(err, 2) >= 0;
+}
+
+static void kill_group(int signal_number)
+{
+    (void)signal_number;
+    kill(0, SIGKILL);
+}
+
+/* In the child: a process group of its own, to be killed as one, and a signal when the driver dies.
+ */
+static void become_keeper(pid_t driver)
+{
+    setpgid(0, 0);
+    signal(SIGTERM, kill_group);
+    signal(SIGINT, SIG_DFL);
+#ifdef __linux__
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+#endif
+    if (getppid() != driver) /* it has died already */
+        kill(0, SIGKILL);
+}
+
+/* Waits for the command and ends as it did. */
+static void end_like(pid_t process)
+{
+    int status;
+    while (waitpid(process, &status, 0) < 0)
+        if (errno != EINTR)
+            _exit(127);
+    if (!WIFSIGNALED(status))
+        _exit(WEXITSTATUS(status));
+    struct rlimit none = {0, 0};
+    setrlimit(RLIMIT_CORE, &none);
+    signal(WTERMSIG(status), SIG_DFL);
+    raise(WTERMSIG(status));
+    _exit(128 + WTERMSIG(status));
+}
+
+static void become_command(const struct evaluation *e, const char *command)
+{
+    pid_t process = redirect(e) ? fork() : -1;
+    if (process > 0)
+        end_like(process);
+    if (process < 0)
         _exit(127);
+    signal(SIGTERM, SIG_DFL);
     execl("/bin/sh", "sh", "-c", command, (char *)NULL);
     _exit(127);
 }
 
-bool evaluation_start(const struct config *c, struct evaluation *e)
+/* Ordinal values as the numbers that they are called. */
+static void become_request(const struct config *c, const struct umbridge *model,
+                           const struct evaluation *e)
+{
+    double *x = malloc(c->names.d * sizeof *x);
+    char buffer[VALUE_SIZE];
+    bool ok = x && redirect(e);
+    for (size_t j = 0; j < c->names.d && ok; j++)
+        if (!cli_parse_double(names_value(&c->names, j, e->x[j], buffer), &x[j]))
+            x[j] = e->x[j];
+    bool gradient = model->has_gradient && c->use_gradient;
+    int code = ok ? umbridge_evaluate(model, x, gradient ? c->output : 0, stdout, stderr) : 127;
+    _exit(fflush(stdout) == 0 && fflush(stderr) == 0 ? code : UMBRIDGE_LOST);
+}
+
+bool evaluation_start(const struct config *c, const struct umbridge *model, struct evaluation *e)
 {
     const struct template_values values = {&c->names, e->x, e->id, e->level};
-    char *command = fill_command(c, &values);
-    bool ok = command && make_folder(c, e);
+    char *command = model ? NULL : fill_command(c, &values);
+    bool ok = (model || command) && make_folder(c, e);
     for (size_t i = 0; i < c->n_templates && ok; i++)
         ok = template_copy(c->templates[i], e->folder, &values);
     if (ok) {
+        pid_t driver = getpid();
+        fflush(NULL); /* a copy of what is not written yet would be written twice */
         e->timed_out = false;
         e->started = cli_seconds();
         e->process = fork();
-        if (e->process == 0)
-            become(e, command);
+        if (e->process == 0) {
+            become_keeper(driver);
+            if (model)
+                become_request(c, model, e);
+            else
+                become_command(e, command);
+        }
         ok = e->process > 0;
         if (ok)
             setpgid(e->process, e->process); /* in both, whichever comes first */
@@ -133,6 +204,25 @@ static void add_words(struct outcome *o, const char *err, const char *out)
                  (int)(length < MOST_WORDS ? length : MOST_WORDS), line);
 }
 
+/* The numbers that a request has printed. */
+static void read_answer(const struct config *c, const struct umbridge *model, const char *out,
+                        struct outcome *o)
+{
+    char key[32];
+    bool ok = out != NULL;
+    if (!ok)
+        snprintf(o->reason, sizeof o->reason, "stdout: %s", strerror(errno));
+    for (size_t k = 0; k <= c->names.m && ok; k++) {
+        snprintf(key, sizeof key, "output.%zu", k ? config_output(c, k - 1) : c->output);
+        ok = result_find(out, key, RESULT_FIRST, 1, k ? &o->constraints[k - 1] : &o->f, o->reason,
+                         sizeof o->reason);
+    }
+    if (ok && model->has_gradient && c->use_gradient)
+        ok = result_find(out, "gradient", RESULT_FIRST, c->names.d, o->gradient, o->reason,
+                         sizeof o->reason);
+    o->kind = ok ? OUTCOME_DONE : OUTCOME_UNREAD;
+}
+
 /* The numbers of a process that ended well. */
 static void read_numbers(const struct config *c, const struct evaluation *e, const char *out,
                          struct outcome *o)
@@ -161,6 +251,9 @@ static bool is_transient(const struct config *c, const struct outcome *o, const 
 {
     if (o->kind == OUTCOME_TIMEOUT)
         return c->transient_timeout;
+    bool listed = c->n_transient_status > 0;
+    if (c->url && !listed && o->kind == OUTCOME_STATUS)
+        return o->code == UMBRIDGE_LOST || o->code == UMBRIDGE_MODEL;
     for (size_t i = 0; i < c->n_transient_status && o->kind == OUTCOME_STATUS; i++)
         if (o->code == (int)c->transient_status[i])
             return true;
@@ -171,8 +264,8 @@ static bool is_transient(const struct config *c, const struct outcome *o, const 
     return false;
 }
 
-void evaluation_read(const struct config *c, const struct evaluation *e, int status,
-                     struct outcome *o)
+void evaluation_read(const struct config *c, const struct umbridge *model,
+                     const struct evaluation *e, int status, struct outcome *o)
 {
     char *out = read_file(e, "stdout"), *err = read_file(e, "stderr");
     o->reason[0] = '\0';
@@ -190,6 +283,8 @@ void evaluation_read(const struct config *c, const struct evaluation *e, int sta
         o->kind = OUTCOME_STATUS;
         o->code = WEXITSTATUS(status);
         snprintf(o->reason, sizeof o->reason, "exit status %d", o->code);
+    } else if (model) {
+        read_answer(c, model, out, o);
     } else {
         read_numbers(c, e, out, o);
     }

@@ -3,6 +3,7 @@
 #define BAYESOPT_TOOL_EVALUATE_H
 
 #include "config.h"
+#include "umbridge.h"
 
 #include <bayesopt/bayesopt.h>
 
@@ -37,13 +38,15 @@ struct outcome {
     char reason[400];               /* of a failure, with the program's own last words */
 };
 
-/* Starts the command for e->id and e->x in a folder that did not exist before, output to files
- * there. */
-bool evaluation_start(const struct config *config, struct evaluation *e);
+/* Starts the command, or with a model (else NULL) a request, for e->id and e->x in a folder that
+ * did not exist before, output to files there. It dies with this process, and all that it has
+ * started in its process group too. */
+bool evaluation_start(const struct config *config, const struct umbridge *model,
+                      struct evaluation *e);
 /* Kills the process group if the time is up. */
 void evaluation_check_time(const struct config *config, struct evaluation *e);
 /* What a finished process left. */
-void evaluation_read(const struct config *config, const struct evaluation *e, int status,
-                     struct outcome *outcome);
+void evaluation_read(const struct config *config, const struct umbridge *model,
+                     const struct evaluation *e, int status, struct outcome *outcome);
 
 #endif

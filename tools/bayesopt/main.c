@@ -7,6 +7,7 @@ static const struct cli_command COMMANDS[] = {
     {"ask", "STORE", "the next points to evaluate", command_ask},
     {"tell", "STORE", "the result at a point", command_tell},
     {"release", "STORE ID", "a pending point for somebody else", command_release},
+    {"heartbeat", "STORE ID", "says that a pending point is still in work", command_heartbeat},
     {"best", "STORE", "the best point so far", command_best},
     {"status", "STORE", "how far the run is, and its model", command_status},
     {"predict", "STORE", "what the model expects at points", command_predict},

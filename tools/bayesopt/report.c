@@ -132,6 +132,40 @@ static json_t *model_json(bayesopt *bo, const struct names *names)
     return model;
 }
 
+/* Who holds the pending points. */
+static json_t *holders_json(bayesopt *bo)
+{
+    json_t *list = json_array();
+    bayesopt_point p;
+    bayesopt_holder h;
+    for (size_t i = 0; !bayesopt_get(bo, i, &p); i++)
+        if (p.state == BAYESOPT_STATE_PENDING && !bayesopt_get_holder(bo, p.id, &h))
+            json_result_append(list, json_pack("{s:I, s:s, s:I, s:f, s:f, s:b, s:b}", "id",
+                                               (json_int_t)p.id, "host", h.host, "process",
+                                               (json_int_t)h.process, "asked", h.asked, "heard",
+                                               h.heard, "alive", h.alive, "detached", h.detached));
+    return list;
+}
+
+static void print_holders(const json_t *list)
+{
+    size_t i;
+    const json_t *h;
+    json_array_foreach(list, i, h)
+    {
+        bool detached = json_is_true(json_object_get(h, "detached"));
+        const char *host = json_string_value(json_object_get(h, "host"));
+        printf("point %lld %s%lld%s%s%s, asked %.0f s ago, heard of %.0f s ago\n",
+               (long long)json_integer_value(json_object_get(h, "id")),
+               detached ? "waits to be told; asked by process " : "is held by process ",
+               (long long)json_integer_value(json_object_get(h, "process")),
+               host && *host ? " on " : "", host ? host : "",
+               detached || json_is_true(json_object_get(h, "alive")) ? "" : " (which is dead)",
+               json_number_value(json_object_get(h, "asked")),
+               json_number_value(json_object_get(h, "heard")));
+    }
+}
+
 static bool show_status(bayesopt *bo, const struct names *names, const struct arguments *a)
 {
     size_t counts[STATES] = {0};
@@ -146,6 +180,7 @@ static bool show_status(bayesopt *bo, const struct names *names, const struct ar
         "pending", (json_int_t)counts[BAYESOPT_STATE_PENDING], "budget",
         (json_int_t)bayesopt_budget(bo), "initial", (json_int_t)bayesopt_initial_count(bo), "best",
         number_json(f), "model", model_json(bo, names));
+    json_result_set(root, "holders", holders_json(bo));
     if (a->json)
         return print_json(stdout, root);
     printf("%zu done, %zu failed, %zu lost, %zu pending of %zu evaluations (%zu of them the "
@@ -160,6 +195,7 @@ static bool show_status(bayesopt *bo, const struct names *names, const struct ar
                json_string_value(json_object_get(model, "transform")),
                json_number_value(json_object_get(model, "loo_rms")),
                json_number_value(json_object_get(model, "trust_length")));
+    print_holders(json_object_get(root, "holders"));
     json_decref(root);
     return true;
 }
@@ -170,7 +206,7 @@ int command_status(int argc, char **argv)
                 "usage: bayesopt status STORE [OPTION]...\n"
                 "\n"
                 "Prints how many points are done, failed and pending, the budget, the best value,\n"
-                "and what the model of the objective looks like.\n\n",
+                "what the model of the objective looks like, and who holds the pending points.\n\n",
                 false, show_status);
 }
 

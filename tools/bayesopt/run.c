@@ -4,11 +4,13 @@
 
 #include <math.h>
 #include <signal.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <time.h>
+#include <unistd.h>
 
 static volatile sig_atomic_t interrupted;
 
@@ -31,8 +33,11 @@ struct runner {
     bayesopt *bo;
     struct evaluation *slots;           /* [workers] */
     double *x, *constraints, *gradient; /* [workers x d], [m], [d] */
+    struct umbridge model;              /* when the file has an objective.url */
     struct cli_progress progress;
     struct streak streak;
+    size_t told;          /* in this session */
+    double heard;         /* when it last gave a sign of life */
     bool works;           /* some evaluation of the study has succeeded */
     bayesopt_status stop; /* positive: nothing more to ask */
 };
@@ -40,6 +45,37 @@ struct runner {
 static bool library_failed(void)
 {
     return cli_refuse("%s", bayesopt_last_error());
+}
+
+static const struct umbridge *model_of(const struct runner *r)
+{
+    return r->config.url ? &r->model : NULL;
+}
+
+/* Lines for a log, where a terminal has its progress line: start, every tenth evaluation, every
+ * failure, end. */
+__attribute__((format(printf, 1, 2))) static void log_line(const char *format, ...)
+{
+    va_list arguments;
+    if (isatty(STDERR_FILENO))
+        return;
+    fprintf(stderr, "%s: ", cli_name());
+    va_start(arguments, format);
+    vfprintf(stderr, format, arguments);
+    va_end(arguments);
+    fputc('\n', stderr);
+}
+
+static void log_standing(const struct runner *r, const char *what)
+{
+    double f;
+    uint64_t id;
+    size_t points = bayesopt_count(r->bo), budget = bayesopt_budget(r->bo);
+    if (bayesopt_best_told(r->bo, NULL, &f, &id) >= 0)
+        log_line("%s: %zu of %zu points asked, best %.6g at point %llu", what, points, budget, f,
+                 (unsigned long long)id);
+    else
+        log_line("%s: %zu of %zu points asked, none succeeded yet", what, points, budget);
 }
 
 static bool runner_start(struct runner *r, struct evaluation *slot)
@@ -50,7 +86,7 @@ static bool runner_start(struct runner *r, struct evaluation *slot)
         r->stop = status;
         return true;
     }
-    return status ? library_failed() : evaluation_start(&r->config, slot);
+    return status ? library_failed() : evaluation_start(&r->config, model_of(r), slot);
 }
 
 /* Whether a failure tells of the program or the machine rather than of the point: the shell has not
@@ -90,6 +126,8 @@ static bool watch(struct runner *r, const struct evaluation *slot, const struct 
 static bool tell(struct runner *r, const struct evaluation *slot, const struct outcome *o)
 {
     bool done = o->kind == OUTCOME_DONE;
+    bool has_gradient =
+        r->config.gradient || (r->config.url && r->config.use_gradient && r->model.has_gradient);
     const bayesopt_attribute attributes[] = {
         {.name = "folder", .text = slot->folder},
         {.name = "attempts", .number = (double)slot->attempt},
@@ -97,7 +135,7 @@ static bool tell(struct runner *r, const struct evaluation *slot, const struct o
     const bayesopt_result result = {
         .f = done ? o->f : (double)NAN,
         .constraints = done && r->config.names.m ? o->constraints : NULL,
-        .gradient = done && r->config.gradient ? o->gradient : NULL,
+        .gradient = done && has_gradient ? o->gradient : NULL,
         .note = done ? NULL : o->reason,
         .transient = o->transient,
         .n_attributes = 2,
@@ -111,14 +149,19 @@ static bool runner_finish(struct runner *r, struct evaluation *slot, int status)
     struct outcome o = {.constraints = r->constraints, .gradient = r->gradient};
     const struct config *c = &r->config;
     slot->process = 0;
-    evaluation_read(c, slot, status, &o);
+    evaluation_read(c, model_of(r), slot, status, &o);
     bool again = o.kind != OUTCOME_DONE && (o.transient || !config_knows_transient(c));
     if (again && slot->attempt <= c->retries && !interrupted) {
         slot->attempt++;
-        return evaluation_start(c, slot);
+        return evaluation_start(c, model_of(r), slot);
     }
+    if (o.kind != OUTCOME_DONE)
+        log_line("point %llu %s: %s", (unsigned long long)slot->id,
+                 o.transient ? "is lost" : "failed", o.reason);
     if (!tell(r, slot, &o) || !watch(r, slot, &o))
         return false;
+    if (++r->told % 10 == 0)
+        log_standing(r, "running");
     char detail[64] = "";
     double f;
     if (bayesopt_best_told(r->bo, NULL, &f, NULL) >= 0)
@@ -126,6 +169,17 @@ static bool runner_finish(struct runner *r, struct evaluation *slot, int status)
     cli_progress_update(&r->progress,
                         (double)bayesopt_count(r->bo) / (double)bayesopt_budget(r->bo), detail);
     return true;
+}
+
+/* Others see that the points in work are in good hands. */
+static bool give_sign(struct runner *r)
+{
+    static const double period = 60;
+    double now = cli_seconds();
+    if (now - r->heard < period)
+        return true;
+    r->heard = now;
+    return !bayesopt_heartbeat(r->bo, 0) || library_failed();
 }
 
 /* Starts what can be started and takes in what has finished; false on an error. */
@@ -165,14 +219,17 @@ static bool work(struct runner *r)
     const struct timespec pause = {0, 5000000};
     size_t busy = 0;
     bool ok = true;
+    r->heard = cli_seconds();
+    log_standing(r, "start");
     cli_progress_start(&r->progress, "evaluations");
     while (ok && !interrupted && (!r->stop || busy)) {
-        ok = turn(r, &busy);
+        ok = turn(r, &busy) && give_sign(r);
         if (ok && busy)
             nanosleep(&pause, NULL);
     }
     cli_progress_end(&r->progress);
     kill_all(r);
+    log_standing(r, r->stop ? bayesopt_status_string(r->stop) : "stopped");
     if (interrupted)
         cli_fail("interrupted; run again to continue");
     return ok && !interrupted;
@@ -216,6 +273,21 @@ static bool report(const struct runner *r)
     return ok;
 }
 
+static bool open_model(struct runner *r)
+{
+    const struct config *c = &r->config;
+    size_t most = c->output;
+    for (size_t k = 0; k < c->names.m; k++)
+        most = config_output(c, k) > most ? config_output(c, k) : most;
+    if (!umbridge_open(&r->model, c->url, c->model, c->model_config, c->names.d, most))
+        return false;
+    log_line("%s at %s %s", c->model, c->url,
+             !r->model.has_gradient ? "has no derivatives"
+             : c->use_gradient      ? "has derivatives, which are used"
+                                    : "has derivatives, which are not used");
+    return true;
+}
+
 static bool run(struct runner *r, const char *store)
 {
     size_t d = r->config.names.d, workers = r->config.workers;
@@ -229,6 +301,8 @@ static bool run(struct runner *r, const char *store)
     r->gradient = r->constraints + r->config.names.m;
     for (size_t i = 0; i < workers; i++)
         r->slots[i].x = r->x + i * d;
+    if (r->config.url && !open_model(r))
+        return false;
     if (!config_create(&r->config, store, &r->bo))
         return false;
     r->works = bayesopt_best_told(r->bo, NULL, NULL, NULL) >= 0;
@@ -288,6 +362,7 @@ int command_run(int argc, char **argv)
     table.usage = usage;
     int code = run_command(argc, argv, &table, &r);
     bayesopt_free(r.bo);
+    umbridge_close(&r.model);
     free(usage);
     free(r.slots);
     free(r.streak.ids);

@@ -46,10 +46,24 @@ static bool keep_templates(const struct config *c, bayesopt *bo)
     return ok;
 }
 
+/* The same model with the same settings is the same wherever it is served. */
+static bool keep_model(const struct config *c, bayesopt *bo)
+{
+    char outputs[32 + 12 * 1000];
+    int used = snprintf(outputs, sizeof outputs, "%zu", c->output);
+    for (size_t k = 0; k < c->n_constraints && used < (int)sizeof outputs - 24; k++)
+        used +=
+            snprintf(outputs + used, sizeof outputs - (size_t)used, ",%zu", config_output(c, k));
+    return !c->url || (store_keep(bo, "objective.model", c->model) &&
+                       store_keep(bo, "objective.config", c->model_config ? c->model_config : "") &&
+                       store_keep(bo, "objective.outputs", outputs));
+}
+
 /* What says what is evaluated, in addition to the names. */
 static bool keep_objective(const struct config *c, bayesopt *bo)
 {
-    return names_keep(bo, &c->names) && store_keep(bo, "objective.command", c->command) &&
+    return names_keep(bo, &c->names) &&
+           store_keep(bo, "objective.command", c->command ? c->command : "") && keep_model(c, bo) &&
            store_keep(bo, "objective.key", c->key ? c->key : "") &&
            store_keep(bo, "objective.file", c->file ? c->file : "") &&
            store_keep(bo, "levels.cheap", c->cheap ? c->cheap : "") && keep_templates(c, bo);

@@ -10,6 +10,7 @@
 
 struct arguments {
     char *store, *failed, *retry, *table, *point;
+    const char *heartbeat; /* the id */
     double *constraints;
     size_t n_constraints, n_words;
     bool json, outside;
@@ -49,6 +50,14 @@ static const struct settings RELEASE = {
              "\n"
              "Gives up a pending point: the next 'bayesopt ask' or 'run' gives it out again,\n"
              "whoever had it.\n\n"};
+
+static const struct settings HEARTBEAT = {
+    1, ROWS,
+    .usage =
+        "usage: bayesopt heartbeat STORE ID\n"
+        "\n"
+        "Says that a pending point is still in work: 'bayesopt ask --reissue --stale SECONDS'\n"
+        "leaves it alone for so long. 'bayesopt run' says so itself every minute.\n\n"};
 
 static bool parse_value(const char *text, double *value)
 {
@@ -95,15 +104,23 @@ static bool release(bayesopt *bo, const char *word)
            (!bayesopt_release(bo, id) || cli_refuse("%s", bayesopt_last_error()));
 }
 
+static bool hear(bayesopt *bo, const char *word)
+{
+    size_t id;
+    return parse_id(word, &id) &&
+           (!bayesopt_heartbeat(bo, id) || cli_refuse("%s", bayesopt_last_error()));
+}
+
 static bool tell(const struct arguments *a)
 {
     bayesopt *bo;
     struct names names;
     if (!store_open_to_write(a->store, &bo, &names))
         return false;
-    bool ok = a->retry   ? release(bo, a->retry)
-              : a->table ? import_table(bo, &names, a->table, a->outside)
-                         : tell_one(bo, &names, a);
+    bool ok = a->heartbeat ? hear(bo, a->heartbeat)
+              : a->retry   ? release(bo, a->retry)
+              : a->table   ? import_table(bo, &names, a->table, a->outside)
+                           : tell_one(bo, &names, a);
     if (ok && a->json)
         print_json(stdout, json_pack("{s:I}", "evaluations", (json_int_t)bayesopt_count(bo)));
     names_free(&names);
@@ -142,6 +159,20 @@ static int run_release(struct arguments *a)
         return cli_usage("expected STORE and the id of a point");
     a->retry = strdup(a->words[0]);
     return a->retry && tell(a) ? CLI_OK : CLI_FAILED;
+}
+
+static int run_heartbeat(struct arguments *a)
+{
+    size_t id;
+    if (a->n_words != 1 || !cli_parse_size(a->words[0], &id) || !id)
+        return cli_usage("expected STORE and the id of a point");
+    a->heartbeat = a->words[0];
+    return tell(a) ? CLI_OK : CLI_FAILED;
+}
+
+int command_heartbeat(int argc, char **argv)
+{
+    return with_words(argc, argv, &HEARTBEAT, run_heartbeat);
 }
 
 int command_tell(int argc, char **argv)

@@ -210,11 +210,32 @@ BAYESOPT_API bayesopt_status bayesopt_open_read(const char *path, bayesopt **bo)
  * perhaps by another process. Without a store there is nothing to leave and nothing happens. */
 BAYESOPT_API bayesopt_status bayesopt_detach(bayesopt *bo);
 
+/** A sign of life for a pending point, or with id 0 for all that this session holds: whoever works
+ * for long gives one from time to time, and bayesopt_reclaim_stale() leaves the point alone.
+ * @return BAYESOPT_ERROR_ARGUMENT if the id is unknown or not pending */
+BAYESOPT_API bayesopt_status bayesopt_heartbeat(bayesopt *bo, uint64_t id);
+
+/** Who holds a pending point of a store. */
+typedef struct bayesopt_holder {
+    char host[256];      /**< name of the machine that asked it, "" if nobody holds it any more */
+    long long process;   /**< number of the process there */
+    double asked, heard; /**< seconds since it was asked, and since the last sign of life */
+    bool alive;    /**< the process runs on this host, or may on another: that cannot be seen */
+    bool detached; /**< the session has ended and left the point to be told by another */
+} bayesopt_holder;
+
+/** Fills the holder of a pending point; without a store this process holds it.
+ * @return BAYESOPT_ERROR_ARGUMENT if the id is unknown or not pending */
+BAYESOPT_API bayesopt_status bayesopt_get_holder(bayesopt *bo, uint64_t id,
+                                                 bayesopt_holder *holder);
+
 /** Makes every pending point whose session is over, detached or not, to be asked again. */
 BAYESOPT_API bayesopt_status bayesopt_reclaim(bayesopt *bo);
 
-/** The same for those that were last asked @p seconds ago or longer, by the clock of the machine:
- * who has asked later may still be at work. Not negative; 0: all. */
+/** The same for those whose holder gave its last sign of life (its ask, or bayesopt_heartbeat())
+ * @p seconds ago or longer, by the clock of the machine; with seconds > 0 also those of sessions
+ * on other hosts, of which nothing else is known. Never a point that a process of this host still
+ * holds. Not negative; 0: all. */
 BAYESOPT_API bayesopt_status bayesopt_reclaim_stale(bayesopt *bo, double seconds);
 
 /**
