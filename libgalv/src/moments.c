@@ -1,3 +1,4 @@
+#include "constants.h"
 #include "error.h"
 
 #include <galv/moments.h>
@@ -11,7 +12,7 @@ enum { MOST_ORDER = 8, MOST_NODES = MOST_ORDER / 2 + 2 };
 static void gauss(int n, double *node, double *weight)
 {
     for (int i = 0; i < n; i++) {
-        double x = cos(3.14159265358979323846 * (i + 0.75) / (n + 0.5)), slope = 1;
+        double x = cos(PI * (i + 0.75) / (n + 0.5)), slope = 1;
         for (int step = 0; step < 10; step++) {
             double p = 1, before = 0;
             for (int k = 1; k <= n; k++) {

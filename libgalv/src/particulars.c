@@ -1,4 +1,5 @@
 /* Particulars and fairness of a grid. */
+#include "constants.h"
 #include "error.h"
 #include "grid_measures.h"
 
@@ -39,8 +40,7 @@ static void add_point(curve *c, double a, double b)
         return;
     double heading = atan2(b - c->at[1], a - c->at[0]);
     if (c->n >= 2)
-        turn_at(c, remainder(heading - c->heading, 2 * 3.14159265358979323846),
-                (length + c->length) / 2);
+        turn_at(c, remainder(heading - c->heading, 2 * PI), (length + c->length) / 2);
     c->at[0] = a;
     c->at[1] = b;
     c->heading = heading;

@@ -1,4 +1,5 @@
 /* Sine products, eqs. 15-17. */
+#include "constants.h"
 #include "error.h"
 #include "shape.h"
 #include "sine_kernel.h"
@@ -326,7 +327,7 @@ galv_status galv_shape_sine(size_t n, const galv_sine *functions, const galv_box
         *step = (galv_sine_step){.direction = functions[i].direction, .live = 3, .axis = {0, 1, 2}};
         for (int j = 0; j < 3; j++) {
             step->order[j] = functions[i].order[j];
-            step->phase[j] = functions[i].phase[j] / 3.14159265358979323846;
+            step->phase[j] = functions[i].phase[j] / PI;
             step->per_length[j] = 1 / box->length[j];
         }
         shape->moves[step->direction] = true;
@@ -359,7 +360,7 @@ galv_status galv_shape_fold_bound(const galv_shape *head, double *bound, bool *f
     for (size_t i = 0; i < head->n; i++) {
         const galv_sine_step *step = &shape->steps[i];
         int q = step->direction;
-        double slope = fabs(step->order[q]) * 3.14159265358979323846;
+        double slope = fabs(step->order[q]) * PI;
         bound[i] = slope > 0 ? shape->box.length[q] / slope : INFINITY;
         *fixed = *fixed && vanishes_at_ends(step->order[q], step->phase[q]);
     }

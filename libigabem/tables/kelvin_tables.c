@@ -4,6 +4,7 @@
  * of degree about 20 per variable is exact to 1e-13; every cell is a part of one block. A cell
  * keeps the least total degree whose dropped Chebyshev coefficients bound the error of value and
  * gradient. */
+#include "../src/core/constants.h"
 #include "../src/kelvin/kelvin_table.h"
 #include "local_integral.h"
 
@@ -17,7 +18,6 @@ enum { BLOCK_R = 18, BLOCK_A = 21, BLOCK_B = 22, MOST = 24, CELL = 16 };
 static const double gradient_tolerance = 1e-9;
 /* Relative error of the samples: coefficients below are noise. */
 static const double rounding = 4e-15;
-static const double pi = 3.14159265358979323846;
 
 /* Samples or Chebyshev coefficients of n[0] x n[1] x n[2]. */
 struct tensor {
@@ -52,7 +52,7 @@ static double sample(enum quantity what, int face, double r, double a, double b)
 
 static double node(int i, int n, double low, double high)
 {
-    return 0.5 * (low + high) + 0.5 * (high - low) * cos(pi * (i + 0.5) / n);
+    return 0.5 * (low + high) + 0.5 * (high - low) * cos(PI * (i + 0.5) / n);
 }
 
 /* t <- m t along one axis; m is rows x t->n[axis]. */
@@ -88,7 +88,7 @@ static void transform(struct tensor *t)
         int n = t->n[axis];
         for (int p = 0; p < n; p++)
             for (int i = 0; i < n; i++)
-                m[p][i] = (p ? 2.0 : 1.0) / n * cos(pi * p * (i + 0.5) / n);
+                m[p][i] = (p ? 2.0 : 1.0) / n * cos(PI * p * (i + 0.5) / n);
         apply(t, axis, n, m);
     }
 }

@@ -1,11 +1,12 @@
 #include "local_integral.h"
 
+#include "../src/core/constants.h"
 #include "../src/kelvin/kelvin_simd.h"
 
 #include <complex.h>
 #include <math.h>
 
-static const double half_pi = 1.57079632679489661923;
+static const double half_pi = PI / 2;
 static const double euler_gamma = 0.57721566490153286061;
 
 enum { GAUSS = 14, LANES = 8, MAX_NODES = 4096 };

@@ -1,6 +1,7 @@
 #include "arguments.h"
 #include "cli.h"
 #include "commands.h"
+#include "constants.h"
 #include "json_result.h"
 
 #include <math.h>
@@ -94,7 +95,7 @@ static int print_text(const galv_model *old, const galv_model *new)
            galv_model_modes(new), 100 * galv_model_retained(new), galv_model_trace(new),
            galv_model_modes(old), 100 * galv_model_retained(old), galv_model_trace(old));
     printf("greatest angle between old and new modes: %.2f degrees\n",
-           galv_model_confidence(new).angle * 180 / 3.14159265358979323846);
+           galv_model_confidence(new).angle * 180 / PI);
     printf("eigenvalues may be too low by up to %.2e m^2\n", galv_model_truncation(new));
     printf("%4s %14s %14s %10s\n", "mode", "before", "now", "change %");
     for (size_t k = 0; k < galv_model_modes(new); k++) {

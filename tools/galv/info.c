@@ -1,6 +1,7 @@
 #include "arguments.h"
 #include "cli.h"
 #include "commands.h"
+#include "constants.h"
 #include "json_result.h"
 
 #include <math.h>
@@ -62,7 +63,7 @@ static int print_text(const struct model_file *file)
                100 * galv_model_confidence(m).retained_fresh,
                100 * galv_model_confidence(m).retained_error,
                galv_model_truncation(m) > 0 ? "the model extended" : "half the samples",
-               galv_model_confidence(m).angle * 180 / 3.14159265358979323846);
+               galv_model_confidence(m).angle * 180 / PI);
     if (galv_model_truncation(m) > 0)
         printf("\neigenvalues may be too low by up to %.2e m^2", galv_model_truncation(m));
     if (!galv_latent_ellipsoid(file->model, 0.95, &radius))

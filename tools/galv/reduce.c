@@ -1,6 +1,7 @@
 #include "arguments.h"
 #include "cli.h"
 #include "commands.h"
+#include "constants.h"
 #include "hull.h"
 #include "json_result.h"
 
@@ -268,7 +269,7 @@ static int print_text(const struct reduction *r)
         printf("\n%.2f +- %.2f %% of the variance of fresh samples\n"
                "greatest angle to the modes of half the samples: %.2f degrees",
                100 * confidence.retained_fresh, 100 * confidence.retained_error,
-               confidence.angle * 180 / 3.14159265358979323846);
+               confidence.angle * 180 / PI);
     if (r->extra.count)
         printf("\n%.3f %% of the variance of the points alone",
                100 * galv_model_retained_geometry(model));

@@ -1,6 +1,7 @@
 /* igabem green: the Kelvin Green function's local and wave part at the points of a CSV table. */
 #include "cli.h"
 #include "commands.h"
+#include "constants.h"
 #include "hull_input.h"
 #include "json_result.h"
 
@@ -126,7 +127,7 @@ static void place(int region, double *v)
     unsigned long long state = 1;
     for (size_t i = 0; i < BENCH_POINTS; i++) {
         double a = uniform(&state), b = uniform(&state), c = uniform(&state), *P = v + i;
-        double size = region == 1 ? 0.1 : 1, R = 1e-4 * pow(1e8, a), t = 1.5707963267948966;
+        double size = region == 1 ? 0.1 : 1, R = 1e-4 * pow(1e8, a), t = PI / 2;
         if (region < 2) {
             P[0] = -16 * a * size;
             P[BENCH_POINTS] = 1.6 * (b - 0.5) * size;

@@ -1,6 +1,7 @@
 /* igabem hydrostatics: the page a naval architect wants of a hull at rest. */
 #include "cli.h"
 #include "commands.h"
+#include "constants.h"
 #include "hull_input.h"
 #include "json_result.h"
 
@@ -114,7 +115,7 @@ static bool fill_page(const struct request *request, const struct hull_input *in
     page->path = request->hull.path;
     snprintf(page->note, sizeof page->note, "%s; %s", input->note, hull_stern(&info));
     page->nu_s = info.nu_s;
-    page->entrance_angle = asin(fmin(1.0, info.nu_s)) * 57.29577951308232;
+    page->entrance_angle = asin(fmin(1.0, info.nu_s)) * (180 / PI);
     page->x = malloc(2 * n * sizeof *page->x);
     page->area = page->x ? page->x + n : NULL;
     if (!page->x)

@@ -1,5 +1,6 @@
 /* Files of a solution: the hull with what is known on it, the wave field, the spectrum. */
 #include "cli.h"
+#include "constants.h"
 #include "plot/plot.h"
 #include "solve.h"
 
@@ -351,7 +352,7 @@ int solve_write_spectrum(const igabem_solution *solution, const char *path)
             "t,degrees,h_re,h_im,dcw_dt\n",
             file_note());
     for (int i = 0; i < N; i++)
-        fprintf(file.stream, "%.9g,%.7g,%.12g,%.12g,%.12g\n", t[i], atan(t[i]) * 57.29577951308232,
+        fprintf(file.stream, "%.9g,%.7g,%.12g,%.12g,%.12g\n", t[i], atan(t[i]) * (180 / PI),
                 h[i][0], h[i][1], dcw[i]);
     return finish(&file, path);
 }

@@ -1,4 +1,5 @@
 #include "cli.h"
+#include "constants.h"
 #include "solve.h"
 
 #include <math.h>
@@ -35,7 +36,7 @@ static void print_settings(const struct solve_run *run, const struct solve_resul
         if (isfinite(o->cutoff_angle) && f->k0 > 0)
             printf(", filter t_c %.4g = %.3g/nu_s (shortest wave %.3g m)", o->cutoff_angle,
                    o->cutoff_angle * run->info.nu_s,
-                   6.283185307179586 / (f->k0 * (1.0 + o->cutoff_angle * o->cutoff_angle)));
+                   2 * PI / (f->k0 * (1.0 + o->cutoff_angle * o->cutoff_angle)));
         else
             printf(", no filter");
     }
@@ -96,7 +97,7 @@ static void print_result(const struct solve_run *run, const struct solve_result 
                100.0 * result->share[0], 100.0 * result->share[1], 100.0 * result->share[2]);
     if (isfinite(f->sinkage))
         printf("  sinkage %.4g m, trim %.4g deg (bow up positive)\n", f->sinkage,
-               f->trim * 57.29577951308232);
+               f->trim * (180 / PI));
     if (result->options.kernel == IGABEM_KERNEL_KELVIN) {
         igabem_total total;
         solve_run_total(run, result, &total);

@@ -1,4 +1,5 @@
 /* Exact changes of patches, one after the other in the order given. */
+#include "constants.h"
 #include "nurbs_tool.h"
 
 #include <math.h>
@@ -93,7 +94,7 @@ static nurbs_status move(const operation *op, const nurbs_patches *in, nurbs_pat
 /* Rodrigues' formula: degrees about the axis x, y, z. */
 static nurbs_status turn(const operation *op, const nurbs_patches *in, nurbs_patches **out)
 {
-    double a = op->value[0] * 3.14159265358979323846 / 180, c = cos(a), s = sin(a), n[3],
+    double a = op->value[0] * PI / 180, c = cos(a), s = sin(a), n[3],
            length = hypot(hypot(op->value[1], op->value[2]), op->value[3]);
     for (int k = 0; k < 3; k++)
         n[k] = op->value[1 + k] / length;

@@ -1,3 +1,4 @@
+#include "constants.h"
 #include "nurbs_tool.h"
 
 #include <math.h>
@@ -53,7 +54,7 @@ static int chine_option(const char *text, struct request *request)
 static int parse(int argc, char **argv, struct request *request)
 {
     size_t degree = (size_t)request->skin.degree;
-    double degrees = request->skin.kink_angle * 180 / 3.14159265358979323846;
+    double degrees = request->skin.kink_angle * 180 / PI;
     const char *kind = NULL, *chine = NULL;
     const tool_option options[] = {{"degree", OPTION_COUNT, &degree, 1, 5},
                                    {"parametrize", OPTION_TEXT, &kind, 0, 0},
@@ -70,7 +71,7 @@ static int parse(int argc, char **argv, struct request *request)
     if (code == CLI_OK && chine)
         code = chine_option(chine, request);
     request->skin.degree = (int)degree;
-    request->skin.kink_angle = degrees * 3.14159265358979323846 / 180;
+    request->skin.kink_angle = degrees * PI / 180;
     return code;
 }
 

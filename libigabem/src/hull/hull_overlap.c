@@ -1,4 +1,5 @@
 /* Parts of a body that are not joined must not reach into each other. */
+#include "core/constants.h"
 #include "core/error.h"
 #include "hull/hull.h"
 
@@ -13,7 +14,6 @@ enum {
 /* Of the solid angle 4 pi: a closed surface is seen under all of it from inside, under none from
  * outside. */
 static const double INSIDE = 0.75;
-static const double PI = 3.14159265358979323846;
 
 /* A patch as flat cells at the middle of equal parts of its parameters. */
 struct cells {

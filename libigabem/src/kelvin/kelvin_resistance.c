@@ -1,11 +1,10 @@
 /* Wave resistance of single submerged singularities in closed form (Havelock). */
+#include "core/constants.h"
 #include "core/error.h"
 
 #include <igabem/kelvin.h>
 
 #include <math.h>
-
-static const double pi = 3.14159265358979323846;
 
 /* e^-a K0(a) and e^-a K1(a) from K_n(a) = Int_0^inf e^{-a cosh t} cosh(n t) dt by the trapezoid
  * rule. Its error is e^{-2 pi (pi/2)/h} by the strip of decay, 7e-18 at h = 1/4, and e^{-2
@@ -52,7 +51,7 @@ igabem_status igabem_kelvin_source_resistance(double rho, double k0, double dept
         return status;
     double K0, K1;
     bessel(k0 * depth, &K0, &K1);
-    *resistance = rho * strength * strength * k0 * k0 / (4 * pi) * (K0 + K1);
+    *resistance = rho * strength * strength * k0 * k0 / (4 * PI) * (K0 + K1);
     return IGABEM_OK;
 }
 
@@ -64,7 +63,7 @@ igabem_status igabem_kelvin_dipole_resistance(double rho, double k0, double dept
         return status;
     double K0, K1, a = k0 * depth, square = moment * k0 * k0;
     bessel(a, &K0, &K1);
-    *resistance = rho * square * square / (4 * pi) * (K0 + (1 + 0.5 / a) * K1);
+    *resistance = rho * square * square / (4 * PI) * (K0 + (1 + 0.5 / a) * K1);
     return IGABEM_OK;
 }
 
@@ -80,6 +79,6 @@ igabem_status igabem_kelvin_sphere_resistance(double rho, double gravity, double
                            radius, depth);
     if (!(k0 > 0) || !isfinite(k0))
         return igabem_fail(IGABEM_ERROR_ARGUMENT, "wave resistance: k0 is %g, expected > 0", k0);
-    double moment = 2 * pi * radius * radius * radius * sqrt(gravity / k0);
+    double moment = 2 * PI * radius * radius * radius * sqrt(gravity / k0);
     return igabem_kelvin_dipole_resistance(rho, k0, depth, moment, resistance);
 }

@@ -15,6 +15,7 @@
 #ifndef IGABEM_KELVIN_WINDOWS_H
 #define IGABEM_KELVIN_WINDOWS_H
 
+#include "core/constants.h"
 #include "kelvin/kelvin_contour.h"
 
 #include <stdbool.h>
@@ -359,7 +360,7 @@ KELVIN_OUTLINE void kelvin_step(const kelvin_vec *demand, const kelvin_bits *cur
     strip = KELVIN_SELECT(*curved, curve, strip);
     kelvin_vec square = *demand * *demand + 2 * KELVIN_CUT * strip;
     kelvin_vrsqrt_to(&square, KELVIN_ROUGH, step);
-    *step *= KELVIN_SAFETY * 6.2831853071795865;
+    *step *= KELVIN_SAFETY * (2 * PI);
 }
 
 /* From q to p: asinh of either sign in the lanes that are curved. */

@@ -2,14 +2,13 @@
  * sqrt(1+t^2) dt, t over both signs (docs/theory.md, section 6). */
 #include "result/kochin.h"
 
+#include "core/constants.h"
 #include "core/error.h"
 #include "result/amplitude.h"
 #include "result/radiation.h"
 #include "solve/resolution.h"
 
 #include <math.h>
-
-static const double PI = 3.14159265358979323846;
 
 /* What turns the resistance integral into C_w. */
 static double coefficient(const igabem_solution *solution)

@@ -14,7 +14,7 @@ static const double length_over_extent = 1.25;
 static const double fewest_per_wave = 8.0;
 /* Of a surface-piercing hull: slower, waves shorter than 0.06 of the length; faster, it planes. */
 static const double least_froude = 0.1, most_froude = 1.0;
-static const double most_trim = 3.0, degree = 57.29577951308232;
+static const double most_trim = 3.0, degree = 180 / PI;
 static const double most_sinkage = 0.01; /* of the length */
 static const double most_gap = 0.5, most_gap_submerged = 0.01;
 

@@ -144,11 +144,12 @@ static void solve_band(const void *data, const double *x, double *y)
     lapack_int order = (lapack_int)n, width = (lapack_int)iteration->width;
     for (size_t i = 0; i < n; i++)
         iteration->buffer[i] = x[iteration->order[i]];
-    LAPACKE_dgbtrs_work(LAPACK_COL_MAJOR, view->transposed ? 'N' : 'T', order, width, width, 1,
-                        iteration->band, 3 * width + 1, iteration->pivots, iteration->buffer,
-                        order);
+    lapack_int info = LAPACKE_dgbtrs_work(LAPACK_COL_MAJOR, view->transposed ? 'N' : 'T', order,
+                                          width, width, 1, iteration->band, 3 * width + 1,
+                                          iteration->pivots, iteration->buffer, order);
+    /* NaN ends the iteration without a result. */
     for (size_t i = 0; i < n; i++)
-        y[iteration->order[i]] = iteration->buffer[i];
+        y[iteration->order[i]] = info ? NAN : iteration->buffer[i];
 }
 
 struct place {
@@ -278,8 +279,10 @@ igabem_status iteration_condition(const struct iteration *iteration, double *con
     igabem_status status =
         vector && sign ? check_norm(norm) : igabem_fail(IGABEM_ERROR_MEMORY, "no memory to solve");
     for (int k = 0; k < ESTIMATES && status == IGABEM_OK; k++) {
-        LAPACKE_dlacn2_work(order, vector, x, sign, &inverse, &kase, save);
-        if (kase == 0)
+        lapack_int info = LAPACKE_dlacn2_work(order, vector, x, sign, &inverse, &kase, save);
+        if (info)
+            status = igabem_fail(IGABEM_ERROR_NUMERIC, "condition: dlacn2 says %d", (int)info);
+        if (info || kase == 0)
             break;
         const struct view view = {iteration, NULL, kase == 2};
         struct gmres_result result;

@@ -1,11 +1,12 @@
 #include "fit/parametrize.h"
 
+#include "core/constants.h"
 #include "core/error.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-static const double right_angle = 1.57079632679489661923;
+static const double right_angle = PI / 2;
 
 static double distance(const double *a, const double *b)
 {

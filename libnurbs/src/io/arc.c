@@ -1,3 +1,4 @@
+#include "core/constants.h"
 #include "core/error.h"
 #include "core/vector.h"
 #include "io/form.h"
@@ -6,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double quarter = 1.57079632679489661923;
+static const double quarter = PI / 2;
 
 static size_t arc_pieces(double a, double b)
 {

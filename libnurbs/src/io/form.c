@@ -1,5 +1,6 @@
 #include "io/form.h"
 
+#include "core/constants.h"
 #include "core/error.h"
 #include "core/vector.h"
 
@@ -10,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double turn = 6.28318530717958647693;
+static const double turn = 2 * PI;
 
 /* Lengths below this share of a form's size are none. */
 static const double negligible = 1e-9;

@@ -1,4 +1,5 @@
 /* Conic arcs 104, copious data 106 and parametric splines 112 as NURBS curves. */
+#include "core/constants.h"
 #include "core/error.h"
 #include "core/vector.h"
 #include "io/form.h"
@@ -12,7 +13,7 @@
 
 enum { MAX_POINTS = 1000000 };
 
-static const double turn = 6.28318530717958647693;
+static const double turn = 2 * PI;
 
 static nurbs_status refuse(const iges_file *file, size_t entity, const char *what)
 {

@@ -1,3 +1,4 @@
+#include "core/constants.h"
 #include "core/error.h"
 #include "io/curve_join.h"
 #include "io/form.h"
@@ -140,7 +141,7 @@ static nurbs_status read_line(const iges_file *file, size_t entity, double scale
 static nurbs_status read_arc(const iges_file *file, size_t entity, double scale,
                              const double matrix[9], const double shift[3], nurbs_curve **curve)
 {
-    const double turn = 6.28318530717958647693;
+    const double turn = 2 * PI;
     double v[7], knots[12], net[36];
     for (size_t k = 0; k < 7; k++) {
         nurbs_status status = iges_real(file, entity, k, 0, &v[k]);

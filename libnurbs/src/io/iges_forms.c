@@ -1,5 +1,6 @@
 /* Surfaces of IGES files that are given by their form: ruled, revolved and extruded surfaces,
  * planes and quadrics, offsets. */
+#include "core/constants.h"
 #include "core/error.h"
 #include "core/vector.h"
 #include "io/iges.h"
@@ -14,7 +15,7 @@
 
 enum { MAX_OFFSETS = 8 };
 
-static const double turn = 6.28318530717958647693;
+static const double turn = 2 * PI;
 
 static nurbs_status refuse(const iges_file *file, size_t entity, const char *what)
 {

@@ -1,4 +1,5 @@
 /* Curves of STEP files, and edges between their vertices. */
+#include "core/constants.h"
 #include "core/error.h"
 #include "core/vector.h"
 #include "io/curve_join.h"
@@ -13,7 +14,7 @@
 
 enum { MOST_DEPTH = 16 };
 
-static const double turn = 6.28318530717958647693;
+static const double turn = 2 * PI;
 
 /* A vertex this near to another, or to an end of a curve, is the same: a share of the curve's
  * extent, as CAD kernels write lengths with about that. */

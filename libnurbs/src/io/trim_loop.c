@@ -1,5 +1,6 @@
 #include "io/trim_loop.h"
 
+#include "core/constants.h"
 #include "core/error.h"
 
 #include <math.h>
@@ -8,8 +9,8 @@
 
 enum { SIDES = 4, SAMPLES = 24 };
 
-static const double corner_angle = 20 * 3.14159265358979323846 / 180;
-static const double kink_angle = 1 * 3.14159265358979323846 / 180;
+static const double corner_angle = 20 * PI / 180;
+static const double kink_angle = 1 * PI / 180;
 
 /* A coordinate serves as parameter of a side whose speed along the side never falls below this
  * share of its mean. */

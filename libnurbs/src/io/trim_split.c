@@ -1,4 +1,5 @@
 /* Loops with any number of corners, and holes, divided into four-sided loops. */
+#include "core/constants.h"
 #include "core/error.h"
 #include "core/vector.h"
 #include "io/trim_loop.h"
@@ -284,7 +285,7 @@ static bool crosses(size_t n, const double *xy, size_t i, size_t j)
 /* Angle from direction (a -> b) to (a -> c), counterclockwise, 0 to a turn. */
 static double angle_between(const double a[2], const double b[2], const double c[2])
 {
-    const double turn = 6.28318530717958647693;
+    const double turn = 2 * PI;
     double angle = atan2(c[1] - a[1], c[0] - a[0]) - atan2(b[1] - a[1], b[0] - a[0]);
     return angle < 0 ? angle + turn : angle;
 }
@@ -317,7 +318,7 @@ static bool hollow(size_t n, const double *xy, size_t i)
 {
     const double *a = xy + 2 * i, *next = xy + 2 * ((i + SAMPLES / 2) % n),
                  *before = xy + 2 * ((i + n - SAMPLES / 2) % n);
-    return angle_between(a, next, before) > 3.14159265358979323846 + least_angle;
+    return angle_between(a, next, before) > PI + least_angle;
 }
 
 /* The chord that divides best, joints behind parts i and j: short for the area it divides, so that

@@ -6,6 +6,7 @@
 #include "simplify/tensor_thin.h"
 
 #include "core/combine.h"
+#include "core/constants.h"
 #include "core/error.h"
 
 #include <math.h>
@@ -47,7 +48,7 @@ static size_t choose_lines(size_t across, size_t line[LINES])
 {
     size_t count = 0;
     for (int k = 0; k < LINES; k++) {
-        const double part = 0.5 - 0.5 * cos(3.14159265358979323846 * k / (LINES - 1));
+        const double part = 0.5 - 0.5 * cos(PI * k / (LINES - 1));
         const size_t at = (size_t)(part * (double)(across - 1) + 0.5);
         if (count == 0 || at > line[count - 1])
             line[count++] = at;

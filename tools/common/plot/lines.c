@@ -191,6 +191,15 @@ static double station(const struct plan *plan, size_t k)
                (double)plan->lines->stations;
 }
 
+/* A plane through an edge, a transom at the aft perpendicular, gives no line: just inside. */
+static double inner_station(const struct plan *plan, size_t k)
+{
+    static const double inside = 1e-6;
+    const double *x = plan->lines->perpendicular;
+    double shift = k == 0 ? inside : k == plan->lines->stations ? -inside : 0;
+    return station(plan, k) + shift * (x[1] - x[0]);
+}
+
 static void put_station_lines(const struct plan *plan, const struct view *view, bool numbered)
 {
     double low = view->up == 2 ? plan->low[2] : 0, high = plan->high[view->up];
@@ -242,7 +251,7 @@ static bool put_body_plan(const struct plan *plan, const struct view *view)
             double side = k % 2 ? 1 : -1;
             if ((k % 2 ? 2 * number < stations : 2 * number > stations))
                 continue;
-            if (!put_section(plan, view, h, 0, station(plan, number), side, &stroke))
+            if (!put_section(plan, view, h, 0, inner_station(plan, number), side, &stroke))
                 return false;
             if (h == 0 && stroke.any)
                 put_number(plan, &stroke, number);
