@@ -314,7 +314,7 @@ static galv_status estimate_confidence(const latent_pass *pass, galv_model *mode
 {
     size_t pairs = pass->pairs, square = pairs * pairs;
     galv_confidence *result = &model->confidence;
-    *result = (galv_confidence){NAN, NAN, NAN};
+    *result = (galv_confidence){NAN, NAN, NAN, {0}};
     if (model->samples < 2 * GROUPS)
         return GALV_OK;
     double *room = malloc((3 * square + 2 * pairs) * sizeof *room);

@@ -42,7 +42,7 @@ galv_method galv_model_method(const galv_model *model)
 
 galv_confidence galv_model_confidence(const galv_model *model)
 {
-    return model ? model->confidence : (galv_confidence){NAN, NAN, NAN};
+    return model ? model->confidence : (galv_confidence){NAN, NAN, NAN, {0}};
 }
 
 static galv_status check_finite(const char *what, size_t n, const double *values)

@@ -36,7 +36,7 @@ static const char *const call_names[CALLS] = {"N, gradient", "W, gradient", "W f
 
 static igabem_status run(enum call what, size_t first, size_t n)
 {
-    const igabem_kelvin_filter filter = {6, 0};
+    const igabem_kelvin_filter filter = {.cut_off = 6};
     double *c[9];
     for (int k = 0; k < 9; k++)
         c[k] = column[k] + first;

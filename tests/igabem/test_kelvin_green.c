@@ -212,7 +212,7 @@ static void filter(void)
         {-30, 0.5, 0, 5},   {-1e-3, 1e-4, -1e-4, 6}, {-3, 1, -2, 6}, {-8, 2.8, -0.01, 1.5}};
     for (size_t i = 0; i < sizeof place / sizeof place[0]; i++) {
         const double *P = place[i];
-        igabem_kelvin_filter f = {P[3], 0};
+        igabem_kelvin_filter f = {.cut_off = P[3]};
         double W[4], direct[4], scale = 1;
         filtered_directly(P, P[3], direct);
         CU_ASSERT_EQUAL(igabem_kelvin_wave_filtered(1, P, P + 1, P + 2, &f, W, W + 1, W + 2, W + 3),
@@ -226,11 +226,11 @@ static void filter(void)
     /* Depth: the plain W at the greater depth. A cut-off far beyond what the depth leaves does
      * nothing. */
     double P[3] = {-4, 0.7, -0.01}, deep[3] = {-4, 0.7, -0.3}, a, b;
-    igabem_kelvin_filter f = {0, 0.3};
+    igabem_kelvin_filter f = {.depth = 0.3};
     igabem_kelvin_wave_filtered(1, P, P + 1, P + 2, &f, &a, NULL, NULL, NULL);
     igabem_kelvin_wave(1, deep, deep + 1, deep + 2, &b, NULL, NULL, NULL);
     CU_ASSERT_EQUAL(a, b);
-    f = (igabem_kelvin_filter){1e4, 0};
+    f = (igabem_kelvin_filter){.cut_off = 1e4};
     igabem_kelvin_wave_filtered(1, deep, deep + 1, deep + 2, &f, &a, NULL, NULL, NULL);
     CHECK_CLOSE(a, b, 1e-6);
 }

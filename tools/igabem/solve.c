@@ -34,7 +34,7 @@ void solve_run_total(const struct solve_run *run, const struct solve_result *res
     const struct solve_request *request = run->request;
     const igabem_water water = {request->options.density, request->viscosity, request->form_factor};
     if (igabem_total_resistance(&result->forces, run->info.length, &water, total))
-        *total = (igabem_total){NAN, NAN, NAN, NAN};
+        *total = (igabem_total){NAN, NAN, NAN, NAN, {0}};
 }
 
 enum { MOST_FORMULATIONS = 16 };

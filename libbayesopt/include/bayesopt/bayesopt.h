@@ -151,8 +151,9 @@ typedef struct bayesopt_options {
     size_t n_first;                /**< points to be evaluated first; default 0 */
     const double *first_x; /**< [n_first x d]; they take the first places of the initial design,
                                 whose others keep away from them */
-    bool told_count; /**< points told before the first ask take places of the initial design too,
-                          whose others keep away from them; one level; default false */
+    bool told_count;    /**< points told before the first ask take places of the initial design too,
+                             whose others keep away from them; one level; default false */
+    double reserved[8]; /**< 0: room for members of later releases */
 } bayesopt_options;
 
 /** Fills the defaults. */
@@ -281,6 +282,7 @@ typedef struct bayesopt_result {
                                              failure and written in the same transaction */
     bool outside; /**< bayesopt_tell_point_result(): the point may lie outside of the bounds. If it
                        does it serves the model alone: it is never the best and costs no budget */
+    double reserved[8]; /**< 0: room for members of later releases */
 } bayesopt_result;
 
 /**
@@ -358,6 +360,7 @@ typedef struct bayesopt_point {
     size_t n_attributes;
     const bayesopt_attribute *attributes; /**< [n_attributes] what was told beside the value */
     bool outside;                         /**< of the bounds: known to the model only */
+    double reserved[8];                   /**< 0: room for members of later releases */
 } bayesopt_point;
 
 /** Number of points in the history, pending ones included. */
@@ -419,6 +422,7 @@ typedef struct bayesopt_model_info {
     double repeat_sd;       /**< of values told at the same point, in units of f; NAN: there are
                                  none. With BAYESOPT_NOISE_DETERMINISTIC their mean is modelled */
     double trust_length;    /**< side of the trust region in [0,1] units */
+    double reserved[8];     /**< 0: room for members of later releases */
 } bayesopt_model_info;
 
 /** Fits the model to the present history and describes it.

@@ -50,6 +50,7 @@ typedef struct bayesopt_design_options {
                               hypercube term over the mean energy of a point; default 1 */
     size_t n_existing;   /**< points already there, which the design keeps away from; default 0 */
     const double *existing; /**< [n_existing x d] borrowed */
+    double reserved[8];     /**< 0: room for members of later releases */
 } bayesopt_design_options;
 
 /** Fills the defaults. */
@@ -70,7 +71,8 @@ typedef struct bayesopt_design_quality {
     double phi_p;        /**< (sum over pairs of 1/dist^50)^(1/50); small is good */
     double min_distance; /**< least distance of two points; large is good */
     double discrepancy;  /**< centred L2 discrepancy, Hickernell, Math. Comp. 67 (1998) 299 */
-    double occupied; /**< share of the n d one-dimensional bins of width 1/n that hold a point */
+    double occupied;    /**< share of the n d one-dimensional bins of width 1/n that hold a point */
+    double reserved[8]; /**< 0: room for members of later releases */
 } bayesopt_design_quality;
 
 /** Measures n points of [0,1]^d; O(n^2 d). Infinite energies are returned for coincident points. */

@@ -98,9 +98,10 @@ typedef struct bayesopt_gp_options {
     size_t evaluations;    /**< likelihood evaluations per start; default 60 */
     uint64_t seed;         /**< of the random starts; default 1 */
     const bool
-        *categorical; /**< [d] copied; variables whose values are names without order: any
-                         two that differ are 1 apart in r, that is 1/l_j, which is the
-                         distance of their one-hot codes up to a factor; default NULL: none */
+        *categorical;   /**< [d] copied; variables whose values are names without order: any
+                           two that differ are 1 apart in r, that is 1/l_j, which is the
+                           distance of their one-hot codes up to a factor; default NULL: none */
+    double reserved[8]; /**< 0: room for members of later releases */
 } bayesopt_gp_options;
 
 BAYESOPT_API void bayesopt_gp_options_init(bayesopt_gp_options *options);
@@ -167,6 +168,7 @@ typedef struct bayesopt_gp_info {
     double log_posterior;  /**< with the priors; equal to log_likelihood after set_parameters */
     double mean;           /**< constant mean: fixed, or estimated by generalised least squares */
     size_t evaluations;    /**< likelihood evaluations of the last fit */
+    double reserved[8];    /**< 0: room for members of later releases */
 } bayesopt_gp_info;
 
 BAYESOPT_API bayesopt_status bayesopt_gp_get_info(const bayesopt_gp *gp, bayesopt_gp_info *info);

@@ -27,8 +27,9 @@ typedef struct galv_sampling {
     size_t count; /**< N >= 1 */
     size_t first; /**< index of the first sample in the uniform stream, 0 unless an earlier run used
                      it */
-    uint64_t seed;   /**< of the uniform stream; unused when x is given */
-    const double *x; /**< N rows of n parameters, borrowed for the call; NULL: uniform stream */
+    uint64_t seed;      /**< of the uniform stream; unused when x is given */
+    const double *x;    /**< N rows of n parameters, borrowed for the call; NULL: uniform stream */
+    double reserved[4]; /**< 0: room for members of later releases */
 } galv_sampling;
 
 /** N independent uniform draws from the box of the shape's bounds. Sample r depends on (seed, r, n)
@@ -69,6 +70,7 @@ typedef struct galv_extra {
     size_t given;          /**< how many of them, the last ones, are not evaluated but given */
     const double *values;  /**< of the given ones: a row of `given` changes from the parent for each
                               sample of the call; borrowed */
+    double reserved[8];    /**< 0: room for members of later releases */
 } galv_extra;
 
 /** Called between blocks of samples with the fraction done, 0..1; non-zero cancels. */
@@ -90,6 +92,7 @@ typedef struct galv_options {
     uint64_t seed;            /**< of the randomised start block; default 1 */
     galv_progress progress;   /**< default NULL */
     void *progress_user_data; /**< default NULL */
+    double reserved[8];       /**< 0: room for members of later releases */
 } galv_options;
 
 GALV_API void galv_options_init(galv_options *options);
@@ -151,6 +154,7 @@ typedef struct galv_data {
     const double *weights; /**< L weights, or NULL */
     const double *values;  /**< the N rows themselves, borrowed for the call; then `rows` is not
                               called. NULL: ask `rows` */
+    double reserved[8];    /**< 0: room for members of later releases */
 } galv_data;
 
 /** The latent space of a data set: as galv_build(), without points or parameters (options->weights
@@ -240,6 +244,7 @@ typedef struct galv_confidence {
     double angle; /**< greatest principal angle, radians, between the modes of every other sample
                      and those of all: for independent samples also the size of the angle between
                      the modes found and those of infinitely many samples */
+    double reserved[4]; /**< 0: room for members of later releases */
 } galv_confidence;
 
 GALV_API galv_confidence galv_model_confidence(const galv_model *model);

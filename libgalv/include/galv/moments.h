@@ -49,6 +49,7 @@ typedef struct galv_moment_set {
     size_t section_first;   /**< moments of sections first, first + stride, ... (counted from 0; one
                                without area, as at a stem, has none to balance) */
     size_t section_stride;  /**< 0: none */
+    double reserved[8];     /**< 0: room for members of later releases */
 } galv_moment_set;
 
 /** The moments of a set as appended quantities. set: borrowed, must outlive the result. The weights

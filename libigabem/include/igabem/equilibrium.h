@@ -17,6 +17,7 @@ typedef struct igabem_equilibrium {
     double pivot;   /**< x of the transverse axis in the still water that the hull turns about, m */
     double change;  /**< draft at the worse end by which a further step would change, m */
     int solves;     /**< how many it took */
+    double reserved[8]; /**< 0: room for members of later releases */
 } igabem_equilibrium;
 
 /** Finds the attitude in which buoyancy, weight and the dynamic pressure are in equilibrium: the

@@ -24,10 +24,11 @@ typedef struct igabem_water {
 
 /** Resistance of a hull in a viscous fluid. */
 typedef struct igabem_total {
-    double reynolds; /**< U L/nu */
-    double cf;       /**< ITTC-57; NAN for Re <= 1000 */
-    double ct;       /**< (1 + k) C_f + C_w, on S as C_w; NAN likewise */
-    double rt;       /**< N; NAN likewise */
+    double reynolds;    /**< U L/nu */
+    double cf;          /**< ITTC-57; NAN for Re <= 1000 */
+    double ct;          /**< (1 + k) C_f + C_w, on S as C_w; NAN likewise */
+    double rt;          /**< N; NAN likewise */
+    double reserved[8]; /**< 0: room for members of later releases */
 } igabem_total;
 
 /** Fills total from the speed, wetted area and C_w of forces.

@@ -59,6 +59,7 @@ typedef struct igabem_hull_info {
     int transom;                     /**< igabem_transom */
     double nu_s; /**< largest |x component| of the waterline normal outside stem arcs */
     size_t patches;
+    double reserved[8]; /**< 0: room for members of later releases */
 } igabem_hull_info;
 
 /** Fills info; with zeros for a hull that is NULL. */

@@ -82,6 +82,7 @@ typedef struct igabem_options {
     int threads;              /**< 0: as OpenMP decides; at most 1024 */
     igabem_progress progress; /**< NULL: none */
     void *progress_user_data;
+    double reserved[8]; /**< 0: room for members of later releases */
 } igabem_options;
 
 /** Fills the defaults; nothing when NULL. */
@@ -122,6 +123,7 @@ typedef struct igabem_cost {
     size_t rankine;        /**< evaluations of grad 1/r */
     size_t local;          /**< evaluations of grad N */
     size_t wave;           /**< plane waves at a node: nodes times wave angles */
+    double reserved[4];    /**< 0: room for members of later releases */
 } igabem_cost;
 
 /** Resistance and what qualifies it. Coefficients: R / (rho U^2 S / 2), S both sides at rest. NAN
@@ -151,6 +153,7 @@ typedef struct igabem_forces {
     igabem_cost cost; /**< of its quadrature */
     double unknowns_per_wave; /**< along the hull, where they are fewest, in a transverse wave
                                  length 2 pi/k0 */
+    double reserved[8];       /**< 0: room for members of later releases */
 } igabem_forces;
 
 /** Fills forces. */

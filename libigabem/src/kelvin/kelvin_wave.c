@@ -31,14 +31,14 @@ igabem_status igabem_kelvin_wave(size_t n, const double *X, const double *Y, con
 void igabem_kelvin_filter_init(igabem_kelvin_filter *filter)
 {
     if (filter)
-        *filter = (igabem_kelvin_filter){0, 0};
+        *filter = (igabem_kelvin_filter){0};
 }
 
 igabem_status igabem_kelvin_wave_filtered(size_t n, const double *X, const double *Y,
                                           const double *Z, const igabem_kelvin_filter *filter,
                                           double *W, double *WX, double *WY, double *WZ)
 {
-    igabem_kelvin_filter none = {0, 0};
+    igabem_kelvin_filter none = {0};
     if (!filter)
         filter = &none;
     if (!(filter->cut_off >= 0) || !isfinite(filter->cut_off))

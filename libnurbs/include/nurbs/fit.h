@@ -56,6 +56,7 @@ typedef struct nurbs_skin_options {
     const double *u, *v; /**< borrowed: parameters of rows and of columns, increasing, instead of
                             parametrize; with those of another grid the surface is linear in the
                             points while the kinks are the same; NULL */
+    double reserved[8];  /**< 0: room for members of later releases */
 } nurbs_skin_options;
 
 NURBS_API void nurbs_skin_options_init(nurbs_skin_options *options);

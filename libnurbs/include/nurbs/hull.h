@@ -43,6 +43,7 @@ typedef struct nurbs_hull_options {
     double trim;    /**< radians, positive bow up, about x = pivot in the still water; 0 */
     double pivot;   /**< m; 0 */
     bool unbounded; /**< no water surface: the body is moved below z = 0 and not cut; false */
+    double reserved[8]; /**< 0: room for members of later releases */
 } nurbs_hull_options;
 
 NURBS_API void nurbs_hull_options_init(nurbs_hull_options *options);

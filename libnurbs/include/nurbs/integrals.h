@@ -29,7 +29,8 @@ typedef struct nurbs_hydrostatics {
     double transom_area; /**< m^2, both sides: immersed area of an open stern end, or of the patches
                             that close it (nurbs_transom_patches()); 0 without either */
     double section_area_max, section_area_max_x; /**< m^2, both sides, and where */
-    double error; /**< relative, estimated from a second quadrature order */
+    double error;       /**< relative, estimated from a second quadrature order */
+    double reserved[8]; /**< 0: room for members of later releases */
 } nurbs_hydrostatics;
 
 /** Wetted patches as made by nurbs_surface_wetted, or a submerged body (level above it). Patches
@@ -52,11 +53,12 @@ NURBS_API nurbs_status nurbs_surface_area(const nurbs_surface *surface, double *
  * surface and the plane y = 0, seen along y: for a closed body with normals outwards its volume,
  * for a wetted half hull half the displacement (centre plane and waterplane carry no n_y). */
 typedef struct nurbs_moments {
-    double area;      /**< m^2 */
-    double volume;    /**< int y n_y dS, m^3 */
-    double moment[3]; /**< int (x, y, z) dV = int (x, y/2, z) y n_y dS, m^4 */
-    double second[6]; /**< int (xx, yy, zz, xy, yz, zx) dV
-                           = int (x^2, y^2/3, z^2, xy/2, yz/2, zx) y n_y dS, m^5 */
+    double area;        /**< m^2 */
+    double volume;      /**< int y n_y dS, m^3 */
+    double moment[3];   /**< int (x, y, z) dV = int (x, y/2, z) y n_y dS, m^4 */
+    double second[6];   /**< int (xx, yy, zz, xy, yz, zx) dV
+                             = int (x^2, y^2/3, z^2, xy/2, yz/2, zx) y n_y dS, m^5 */
+    double reserved[8]; /**< 0: room for members of later releases */
 } nurbs_moments;
 
 /** Number of quantities in nurbs_moments, in their order: rows of a gradient. */

@@ -41,6 +41,7 @@ typedef struct nurbs_offsets_info {
     size_t sections;               /**< rows of the grid, profiles of the ends included */
     size_t chine;                  /**< column of the knuckle, for nurbs_skin_options; 0: none */
     double length, breadth, draft; /**< as set in the file; 0: not given */
+    double reserved[8];            /**< 0: room for members of later releases */
 } nurbs_offsets_info;
 
 /** Reads an offset table.

@@ -44,10 +44,11 @@ NURBS_API nurbs_status nurbs_surface_raise_side(const nurbs_surface *surface,
 
 /** Lines in which a surface meets a plane, as points that lie on both. */
 typedef struct nurbs_contour {
-    size_t lines;   /**< number of lines */
-    size_t *first;  /**< [lines + 1]: line k has the points first[k] ... first[k + 1] - 1 */
-    double *points; /**< x,y,z triples */
-    double *uv;     /**< their parameters, pairs */
+    size_t lines;       /**< number of lines */
+    size_t *first;      /**< [lines + 1]: line k has the points first[k] ... first[k + 1] - 1 */
+    double *points;     /**< x,y,z triples */
+    double *uv;         /**< their parameters, pairs */
+    double reserved[8]; /**< 0: room for members of later releases */
 } nurbs_contour;
 
 /** Fills the lines where normal . p = offset. The surface is searched on `parts` x `parts` cells a

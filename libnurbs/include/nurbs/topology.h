@@ -14,11 +14,12 @@ extern "C" {
 /** One of the four edges of a patch; edge 4 * patch + side. */
 typedef struct nurbs_edge {
     size_t patch;
-    int side;        /**< 0: first u, 1: last u, 2: first v, 3: last v */
-    double range[2]; /**< of its parameter (v on sides 0 and 1, u on 2 and 3) */
-    double length;   /**< m */
-    double joined;   /**< how much of that runs along other edges, m */
-    int collapsed;   /**< the edge is a point, within the tolerance */
+    int side;           /**< 0: first u, 1: last u, 2: first v, 3: last v */
+    double range[2];    /**< of its parameter (v on sides 0 and 1, u on 2 and 3) */
+    double length;      /**< m */
+    double joined;      /**< how much of that runs along other edges, m */
+    int collapsed;      /**< the edge is a point, within the tolerance */
+    double reserved[4]; /**< 0: room for members of later releases */
 } nurbs_edge;
 
 /** A stretch in which two edges run together. */
@@ -29,6 +30,7 @@ typedef struct nurbs_joint {
     double at[3];          /**< a point halfway along it */
     double gap;     /**< largest distance of edge[0] from edge[1] on it, m, on 32 samples a span */
     int consistent; /**< the normals on both sides are on the same side of the body */
+    double reserved[4]; /**< 0: room for members of later releases */
 } nurbs_joint;
 
 typedef struct nurbs_topology {
@@ -37,6 +39,7 @@ typedef struct nurbs_topology {
     nurbs_joint *joint;
     double gap;          /**< largest of all joints, m */
     size_t inconsistent; /**< number of joints at which the orientation changes */
+    double reserved[8];  /**< 0: room for members of later releases */
 } nurbs_topology;
 
 /** Fills the topology: edges run together where they are within `tolerance` metres of each other on

@@ -418,7 +418,7 @@ static nurbs_status make_grid(const table *t, size_t columns, nurbs_grid **grid,
         status = section_list_grid(&list, t->path, columns, usual < LEAST_GRID ? LEAST_GRID : usual,
                                    grid, &chine);
     if (status == NURBS_OK && info)
-        *info = (nurbs_offsets_info){list.count, chine, t->length, t->breadth, t->draft};
+        *info = (nurbs_offsets_info){list.count, chine, t->length, t->breadth, t->draft, {0}};
     section_list_free(&list);
     return status;
 }
