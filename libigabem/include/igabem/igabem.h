@@ -11,6 +11,7 @@
 #include <igabem/hull.h>
 #include <igabem/kelvin.h>
 #include <igabem/ladder.h>
+#include <igabem/panel.h>
 #include <igabem/residual.h>
 #include <igabem/solve.h>
 #include <igabem/status.h>

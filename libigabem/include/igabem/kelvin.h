@@ -39,12 +39,14 @@
 extern "C" {
 #endif
 
-/** The four terms of 4 pi G, to be combined with |. */
+/** The terms of 4 pi G, to be combined with |: the first four are the Kelvin source, IGABEM_RANKINE
+ * | IGABEM_LID is the double body. */
 enum igabem_kelvin_part {
     IGABEM_RANKINE = 1, /**< -1/r                                */
     IGABEM_IMAGE = 2,   /**< +1/r', the rigid-lid image reversed */
     IGABEM_LOCAL = 4,   /**< k0 N                                */
-    IGABEM_WAVE = 8     /**< k0 W                                */
+    IGABEM_WAVE = 8,    /**< k0 W                                */
+    IGABEM_LID = 16     /**< -1/r', the rigid-lid image: instead of IGABEM_IMAGE, not beside it */
 };
 
 /**
@@ -75,6 +77,7 @@ typedef struct igabem_kelvin_filter {
                        flat at small wave angles t = tan(theta); 0 (default): no such factor */
     double depth;   /**< >= 0, dimensionless (k0 times a length): Z is replaced by min(Z, -depth) in
                        W;   W_Z is the value at that depth; 0 (default): off */
+    double reserved[8]; /**< 0: room for members of later releases */
 } igabem_kelvin_filter;
 
 /** Fills the defaults: no filter. */

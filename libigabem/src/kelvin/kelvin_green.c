@@ -1,11 +1,11 @@
 /* The Green function of n pairs of points, put together from its four parts. */
-#include "core/error.h"
+#include "kelvin/kelvin_green.h"
 
-#include <igabem/kelvin.h>
+#include "core/error.h"
 
 #include <math.h>
 
-enum { BLOCK = 64, ALL_PARTS = IGABEM_RANKINE | IGABEM_IMAGE | IGABEM_LOCAL | IGABEM_WAVE };
+enum { BLOCK = 64 };
 
 static const double quarter_pi = 0.079577471545947667884; /* 1/(4 pi) */
 
@@ -47,19 +47,30 @@ static igabem_status check_pair(double k0, const struct pairs *p, size_t i, unsi
     return IGABEM_OK;
 }
 
+igabem_status kelvin_check_parts(unsigned parts)
+{
+    const unsigned all = IGABEM_RANKINE | IGABEM_IMAGE | IGABEM_LOCAL | IGABEM_WAVE | IGABEM_LID;
+    if (parts & ~all)
+        return igabem_fail(IGABEM_ERROR_ARGUMENT,
+                           "kelvin Green function: parts is %u, expected a sum of 1, 2, 4, 8, 16",
+                           parts);
+    if ((parts & IGABEM_IMAGE) && (parts & IGABEM_LID))
+        return igabem_fail(IGABEM_ERROR_ARGUMENT,
+                           "kelvin Green function: parts asks for both signs of the image");
+    return IGABEM_OK;
+}
+
 static igabem_status check(double k0, size_t n, const struct pairs *p, unsigned parts)
 {
     if (!(k0 > 0) || !isfinite(k0))
         return igabem_fail(IGABEM_ERROR_ARGUMENT, "kelvin Green function: k0 is %g, expected > 0",
                            k0);
-    if (parts & ~(unsigned)ALL_PARTS)
-        return igabem_fail(IGABEM_ERROR_ARGUMENT,
-                           "kelvin Green function: parts is %u, expected a sum of 1, 2, 4, 8",
-                           parts);
+    igabem_status status = kelvin_check_parts(parts);
+    if (status != IGABEM_OK)
+        return status;
     if (n > 0 && (!p->x || !p->y || !p->z || !p->xi || !p->eta || !p->zeta))
         return igabem_fail(IGABEM_ERROR_ARGUMENT,
                            "kelvin Green function: a coordinate array is NULL");
-    igabem_status status = IGABEM_OK;
     for (size_t i = 0; status == IGABEM_OK && i < n; i++)
         status = check_pair(k0, p, i, parts);
     return status;
@@ -114,10 +125,11 @@ static void add_scaled(size_t n, double scale, const double *from, double *to)
         to[i] += scale * from[i];
 }
 
-igabem_status igabem_kelvin_green(double k0, size_t n, const double *x, const double *y,
-                                  const double *z, const double *xi, const double *eta,
-                                  const double *zeta, unsigned parts, double *g, double *gx,
-                                  double *gy, double *gz)
+igabem_status kelvin_green_filtered(double k0, size_t n, const double *x, const double *y,
+                                    const double *z, const double *xi, const double *eta,
+                                    const double *zeta, unsigned parts,
+                                    const igabem_kelvin_filter *filter, double *g, double *gx,
+                                    double *gy, double *gz)
 {
     struct pairs pairs = {x, y, z, xi, eta, zeta};
     double *target[4] = {g, gx, gy, gz};
@@ -128,13 +140,16 @@ igabem_status igabem_kelvin_green(double k0, size_t n, const double *x, const do
         fill_block(k0, &pairs, first, n - first < BLOCK ? n - first : BLOCK, &b);
         if (parts & IGABEM_RANKINE)
             add_pole(&b, b.below, -1, total);
-        if (parts & IGABEM_IMAGE)
-            add_pole(&b, b.above, 1, total);
+        if (parts & (IGABEM_IMAGE | IGABEM_LID))
+            add_pole(&b, b.above, parts & IGABEM_IMAGE ? 1 : -1, total);
         for (unsigned kind = IGABEM_LOCAL; kind <= IGABEM_WAVE && status == IGABEM_OK; kind *= 2) {
             if (!(parts & kind))
                 continue;
-            status = (kind == IGABEM_LOCAL ? igabem_kelvin_local : igabem_kelvin_wave)(
-                b.n, b.X, b.Y, b.Z, part[0], part[1], part[2], part[3]);
+            status =
+                kind == IGABEM_LOCAL
+                    ? igabem_kelvin_local(b.n, b.X, b.Y, b.Z, part[0], part[1], part[2], part[3])
+                    : igabem_kelvin_wave_filtered(b.n, b.X, b.Y, b.Z, filter, part[0], part[1],
+                                                  part[2], part[3]);
             for (int k = 0; k < 4; k++)
                 add_scaled(b.n, k == 0 ? k0 : k0 * k0, part[k], total[k]);
         }
@@ -143,6 +158,14 @@ igabem_status igabem_kelvin_green(double k0, size_t n, const double *x, const do
                 target[k][first + i] = quarter_pi * total[k][i];
     }
     return status;
+}
+
+igabem_status igabem_kelvin_green(double k0, size_t n, const double *x, const double *y,
+                                  const double *z, const double *xi, const double *eta,
+                                  const double *zeta, unsigned parts, double *g, double *gx,
+                                  double *gy, double *gz)
+{
+    return kelvin_green_filtered(k0, n, x, y, z, xi, eta, zeta, parts, NULL, g, gx, gy, gz);
 }
 
 igabem_status igabem_kelvin_green_second(double k0, size_t n, const double *x, const double *y,
@@ -160,8 +183,8 @@ igabem_status igabem_kelvin_green_second(double k0, size_t n, const double *x, c
         fill_block(k0, &pairs, first, n - first < BLOCK ? n - first : BLOCK, &b);
         if (parts & IGABEM_RANKINE)
             add_pole_second(&b, b.below, -1, total);
-        if (parts & IGABEM_IMAGE)
-            add_pole_second(&b, b.above, 1, total);
+        if (parts & (IGABEM_IMAGE | IGABEM_LID))
+            add_pole_second(&b, b.above, parts & IGABEM_IMAGE ? 1 : -1, total);
         for (unsigned kind = IGABEM_LOCAL; kind <= IGABEM_WAVE && status == IGABEM_OK; kind *= 2) {
             if (!(parts & kind))
                 continue;
