@@ -1,49 +1,28 @@
-! Fortran 2003 module for the Kelvin Green function of libigabem: see igabem/kelvin.h for every
-! convention. Compile it with the program that uses it and link with -ligabem.
+! Fortran modules of libigabem. igabem_c (igabem_c.f90, made from the headers) is its whole C interface:
+! kernel, matrices of points and panels, amplitude, filters, hulls of libnurbs, solver. igabem adds to it the
+! Green function on Fortran's arrays and the sentence of the last failure. Fortran 2018: absent arguments are
+! NULL. Compile this file with the program that uses it and link with -ligabem -lnurbs.
 !
 !   use igabem
 !   call kelvin_green(k0, x, y, z, xi, eta, zeta, g, gx, gy, gz)
 !
 ! takes scalars or arrays of equal length. Optional last arguments: parts, a sum of igabem_rankine,
-! igabem_image, igabem_local and igabem_wave (default: all four), and status, 0 on success. Without
-! status a failure stops the program with the library's message.
+! igabem_image, igabem_local, igabem_wave and igabem_lid (default: the first four), and status, 0 on success.
+! Without status a failure stops the program with the library's message. Matrices that C stores row by row, [n][m],
+! are arrays (m, n).
+include 'igabem_c.f90'
+
 module igabem
-  use, intrinsic :: iso_c_binding
+  use igabem_c
   implicit none
-  private
-  public :: kelvin_green, kelvin_local, kelvin_wave, igabem_error_message
-  integer, parameter, public :: igabem_rankine = 1, igabem_image = 2, igabem_local = 4, igabem_wave = 8
+  private :: green_points, green_point, finish, differ
 
   interface kelvin_green
     module procedure green_points, green_point
   end interface
 
   interface
-    integer(c_int) function c_green(k0, n, x, y, z, xi, eta, zeta, parts, g, gx, gy, gz) &
-        bind(c, name='igabem_kelvin_green')
-      import :: c_int, c_double, c_size_t
-      real(c_double), value :: k0
-      integer(c_size_t), value :: n
-      real(c_double), intent(in) :: x(*), y(*), z(*), xi(*), eta(*), zeta(*)
-      integer(c_int), value :: parts
-      real(c_double), intent(out) :: g(*), gx(*), gy(*), gz(*)
-    end function
-    integer(c_int) function c_local(n, x, y, z, v, vx, vy, vz) bind(c, name='igabem_kelvin_local')
-      import :: c_int, c_double, c_size_t
-      integer(c_size_t), value :: n
-      real(c_double), intent(in) :: x(*), y(*), z(*)
-      real(c_double), intent(out) :: v(*), vx(*), vy(*), vz(*)
-    end function
-    integer(c_int) function c_wave(n, x, y, z, v, vx, vy, vz) bind(c, name='igabem_kelvin_wave')
-      import :: c_int, c_double, c_size_t
-      integer(c_size_t), value :: n
-      real(c_double), intent(in) :: x(*), y(*), z(*)
-      real(c_double), intent(out) :: v(*), vx(*), vy(*), vz(*)
-    end function
-    type(c_ptr) function c_last_error() bind(c, name='igabem_last_error')
-      import :: c_ptr
-    end function
-    integer(c_size_t) function c_strlen(s) bind(c, name='strlen')
+    integer(c_size_t) function text_length(s) bind(c, name='strlen')
       import :: c_ptr, c_size_t
       type(c_ptr), value :: s
     end function
@@ -57,8 +36,8 @@ contains
     character(kind=c_char), pointer :: raw(:)
     type(c_ptr) :: address
     integer :: i, n
-    address = c_last_error()
-    n = int(c_strlen(address))
+    address = igabem_last_error()
+    n = int(text_length(address))
     call c_f_pointer(address, raw, [n])
     allocate (character(len=n) :: text)
     do i = 1, n
@@ -98,7 +77,7 @@ contains
     if (present(parts)) which = int(parts, c_int)
     if (differ(size(x), [size(y), size(z), size(xi), size(eta), size(zeta), size(g), size(gx), &
                          size(gy), size(gz)], status)) return
-    call finish(c_green(k0, int(size(x), c_size_t), x, y, z, xi, eta, zeta, which, g, gx, gy, gz), status)
+    call finish(igabem_kelvin_green(k0, int(size(x), c_size_t), x, y, z, xi, eta, zeta, which, g, gx, gy, gz), status)
   end subroutine
 
   subroutine green_point(k0, x, y, z, xi, eta, zeta, g, gx, gy, gz, parts, status)
@@ -118,7 +97,7 @@ contains
     real(c_double), intent(out), contiguous :: v(:), vx(:), vy(:), vz(:)
     integer, intent(out), optional :: status
     if (differ(size(x), [size(y), size(z), size(v), size(vx), size(vy), size(vz)], status)) return
-    call finish(c_local(int(size(x), c_size_t), x, y, z, v, vx, vy, vz), status)
+    call finish(igabem_kelvin_local(int(size(x), c_size_t), x, y, z, v, vx, vy, vz), status)
   end subroutine
 
   ! W and its gradient, dimensionless.
@@ -127,7 +106,7 @@ contains
     real(c_double), intent(out), contiguous :: v(:), vx(:), vy(:), vz(:)
     integer, intent(out), optional :: status
     if (differ(size(x), [size(y), size(z), size(v), size(vx), size(vy), size(vz)], status)) return
-    call finish(c_wave(int(size(x), c_size_t), x, y, z, v, vx, vy, vz), status)
+    call finish(igabem_kelvin_wave(int(size(x), c_size_t), x, y, z, v, vx, vy, vz), status)
   end subroutine
 
 end module

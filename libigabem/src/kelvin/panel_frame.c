@@ -7,7 +7,7 @@
 
 /* Nearer to a plane or an edge than this share of the panel's size is on it. */
 static const double on_it = 1e-12;
-static const double most_warp = 0.1;
+static const double most_warp = 0.1, same_corner = 1e-9;
 
 static double dot(const double a[3], const double b[3])
 {
@@ -34,15 +34,13 @@ static double distance(const double a[3], const double b[3])
     return sqrt(dot(d, d));
 }
 
-/* Copies the corners that differ from the one before; returns how many. */
-static int distinct_corners(const double *corners, double corner[4][3])
+/* Copies the corners that differ from the next one; returns how many. */
+static int distinct_corners(const double *corners, double size, double corner[4][3])
 {
     int n = 0;
-    for (int c = 0; c < 4; c++) {
-        const double *next = corners + 3 * ((c + 1) % 4);
-        if (memcmp(corners + 3 * c, next, 3 * sizeof *next) != 0)
-            memcpy(corner[n++], corners + 3 * c, 3 * sizeof *next);
-    }
+    for (int c = 0; c < 4; c++)
+        if (distance(corners + 3 * c, corners + 3 * ((c + 1) % 4)) > same_corner * size)
+            memcpy(corner[n++], corners + 3 * c, 3 * sizeof *corners);
     return n;
 }
 
@@ -127,14 +125,14 @@ igabem_status panel_frame(size_t j, const double *corners, struct panel *p)
                 "panel %zu: coordinate %d of corner %d is %g, expected finite and z <= 0", j,
                 k % 3 + 1, k / 3, corners[k]);
     *p = (struct panel){0};
-    p->corners = distinct_corners(corners, p->corner);
+    for (int c = 0; c < 4; c++)
+        for (int d = 0; d < c; d++)
+            p->size = fmax(p->size, distance(corners + 3 * c, corners + 3 * d));
+    p->corners = distinct_corners(corners, p->size, p->corner);
     if (p->corners < 3)
         return igabem_fail(IGABEM_ERROR_ARGUMENT,
                            "panel %zu has %d different corners, expected 3 or 4", j, p->corners);
     double a[3], b[3], mean[3];
-    for (int c = 0; c < p->corners; c++)
-        for (int d = 0; d < c; d++)
-            p->size = fmax(p->size, distance(p->corner[c], p->corner[d]));
     difference(p->corner[2], p->corner[0], a);
     difference(p->corner[3 % p->corners], p->corner[1], b);
     cross(a, b, p->normal);
