@@ -226,6 +226,7 @@ module igabem_c
     real(c_double) :: rake
     real(c_double) :: bulb_length
     real(c_double) :: bulb_beam
+    real(c_double) :: reserved(8)
   end type
 
   interface

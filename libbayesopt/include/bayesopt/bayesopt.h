@@ -223,6 +223,7 @@ typedef struct bayesopt_holder {
     double asked, heard; /**< seconds since it was asked, and since the last sign of life */
     bool alive;    /**< the process runs on this host, or may on another: that cannot be seen */
     bool detached; /**< the session has ended and left the point to be told by another */
+    double reserved[8]; /**< 0: room for members of later releases */
 } bayesopt_holder;
 
 /** Fills the holder of a pending point; without a store this process holds it.

@@ -20,6 +20,7 @@ typedef struct galv_fairness {
     double energy;      /**< integral of the squared curvature, 1/m */
     double radius;      /**< least radius of curvature, m; infinity for straight lines */
     double inflections; /**< changes of the turn's sign, turns below 1e-3 rad left out */
+    double reserved[8]; /**< 0: room for members of later releases */
 } galv_fairness;
 
 /** Particulars below z = 0, both sides, m. Cells are two triangles each, sections and waterlines
@@ -36,6 +37,7 @@ typedef struct galv_particulars {
     double section_area;       /**< of the largest section, m^2 */
     double transom_beam;       /**< at z = 0, of the section farthest aft */
     double transom_draft;      /**< of the same section; 0 above the water */
+    double reserved[8];        /**< 0: room for members of later releases */
 } galv_particulars;
 
 /**

@@ -33,6 +33,7 @@ typedef struct nurbs_particulars {
                                prismatic coefficient, on waterline length, beam and keel draft */
     double transom_ratio; /**< immersed transom over the largest section */
     double bulb_ratio;    /**< section at the fore perpendicular over the largest */
+    double reserved[8];   /**< 0: room for members of later releases */
 } nurbs_particulars;
 
 /** @param density  of the water, kg/m^3, > 0

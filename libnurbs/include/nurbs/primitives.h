@@ -39,6 +39,7 @@ typedef struct nurbs_ship_form {
     double rake;          /**< forefoot behind the stem, share of the length */
     double bulb_length; /**< reach ahead of the stem at the waterline, share of the length, >= 0 */
     double bulb_beam;   /**< half breadth of the bulb, share of the beam, >= 0 */
+    double reserved[8]; /**< 0: room for members of later releases */
 } nurbs_ship_form;
 
 /** Fill the numbers of a fast round-bilge form with a wide immersed transom, and of a bulbous bow

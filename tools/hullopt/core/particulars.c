@@ -87,7 +87,7 @@ static void measure_places(const struct view *v, double value[PARTICULARS][2])
 static bool measure_fairness(const struct view *v, double value[PARTICULARS][2])
 {
     const struct config *c = v->problem->config;
-    galv_fairness waterlines = {NAN, NAN, NAN, NAN}, sections = waterlines;
+    galv_fairness waterlines = {NAN, NAN, NAN, NAN, {0}}, sections = waterlines;
     bool lines = !isnan(c->particular[PARTICULAR_WATERLINES][0]) ||
                  !isnan(c->particular[PARTICULAR_RADIUS][0]),
          ribs = !isnan(c->particular[PARTICULAR_SECTIONS][0]);
