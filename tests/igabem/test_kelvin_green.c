@@ -166,7 +166,7 @@ static void refusals(void)
     CU_ASSERT_EQUAL(igabem_kelvin_green(0, 1, &one, &one, &minus, &zero, &zero, &minus, ALL, &out,
                                         NULL, NULL, NULL),
                     IGABEM_ERROR_ARGUMENT);
-    CU_ASSERT_EQUAL(igabem_kelvin_green(1, 1, &one, &one, &minus, &zero, &zero, &minus, 16, &out,
+    CU_ASSERT_EQUAL(igabem_kelvin_green(1, 1, &one, &one, &minus, &zero, &zero, &minus, 32, &out,
                                         NULL, NULL, NULL),
                     IGABEM_ERROR_ARGUMENT);
     CU_ASSERT_EQUAL(igabem_kelvin_green(1, 1, &one, &one, &minus, &one, &one, &minus, ALL, &out,
