@@ -140,6 +140,8 @@ static const struct {
     {"constraints:\n  displacement: 2\n", ":6:", "constraints.displacement"},
     {"constraints:\n  breadth: 1\n", ":6:", "constraints.breadth"},
     {"constraints:\n  entrance: 0.9\n", ":6:", "constraints.entrance"},
+    {"search:\n  confirm: 0.5\n", ":6:", "needs search.models"},
+    {"search:\n  method: annealing\n", ":6:", "particle-swarm"},
     {"constraints:\n  gm: [0.9, 2]\n", ":6:", "needs constraints.kg"},
     {"constraints:\n  stations: [0.9, 1.1]\n", ":6:", "needs constraints.at_stations"},
     {"constraints:\n  at_points: [1, -0.1, 2]\n", ":6:", "expected 2 for each"},

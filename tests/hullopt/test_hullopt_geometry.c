@@ -143,10 +143,11 @@ static void test_allowed_designs(void)
 {
     struct evaluation parent = {.id = 0, .cw = 2, .cw_pressure = 3};
     struct evaluation better = {.id = 5, .cw = 1, .cw_pressure = 3.2};
-    const struct config none = {.pressure = NAN, .speeds = NAN},
-                        loose = {.pressure = 1.1, .speeds = NAN},
-                        tight = {.pressure = 1, .speeds = NAN},
-                        speeds = {.pressure = NAN, .speeds = 1, .verify_froudes = 2};
+    const struct config none = {.confirm = NAN, .pressure = NAN, .speeds = NAN},
+                        loose = {.confirm = NAN, .pressure = 1.1, .speeds = NAN},
+                        tight = {.confirm = NAN, .pressure = 1, .speeds = NAN},
+                        speeds = {
+                            .confirm = NAN, .pressure = NAN, .speeds = 1, .verify_froudes = 2};
     CU_ASSERT_TRUE(outcome_allowed(&none, &better, &parent));
     CU_ASSERT_TRUE(outcome_allowed(&loose, &better, &parent));
     CU_ASSERT_FALSE(outcome_allowed(&tight, &better, &parent));
@@ -167,7 +168,7 @@ static void test_allowed_designs(void)
     better.cw_speed[0] = NAN;
     CU_ASSERT_FALSE(outcome_allowed(&speeds, &better, &parent));
     double lower[OUTCOME_MOST], bound[OUTCOME_MOST], ratio[OUTCOME_MOST];
-    const struct config both = {.pressure = 1.1, .speeds = 1, .verify_froudes = 2};
+    const struct config both = {.confirm = NAN, .pressure = 1.1, .speeds = 1, .verify_froudes = 2};
     better.cw_speed[0] = 0.25;
     parent.cw_pressure = 2;
     better.cw_pressure = 1;
@@ -184,7 +185,8 @@ static void test_allowed_designs(void)
 /* The objective is the worst ratio of all models, and each of them is bounded at other speeds. */
 static void test_worst_of_models(void)
 {
-    const struct config several = {.pressure = NAN, .speeds = 1, .verify_froudes = 1, .models = 2};
+    const struct config several = {
+        .confirm = NAN, .pressure = NAN, .speeds = 1, .verify_froudes = 1, .models = 2};
     struct evaluation e[3] = {{.cw = 2}, {.id = 1, .cw = 1}, {.id = 2, .cw = 1.2}};
     double lower[OUTCOME_MOST], upper[OUTCOME_MOST];
     for (int i = 0; i < 3; i++) {
@@ -196,13 +198,33 @@ static void test_worst_of_models(void)
     e[1].cw_model[1] = 3.6;
     CU_ASSERT_EQUAL(outcome_bounds(&several, lower, upper), 3);
     for (int i = 0; i < 3; i++)
-        e[i].objective = outcome_objective(&e[i], &e[0]);
+        e[i].objective = outcome_objective(&several, &e[i], &e[0]);
     CU_ASSERT_EQUAL(e[0].objective, 2);
     CHECK_CLOSE(e[1].objective, 1.8, 1e-15);
     CHECK_CLOSE(e[2].objective, 1.2, 1e-15);
     CU_ASSERT_PTR_EQUAL(outcome_best(&several, 3, e), &e[2]);
     e[2].cw_speed[2] = 1.01;
     CU_ASSERT_PTR_EQUAL(outcome_best(&several, 3, e), &e[1]);
+}
+
+/* Of a gain of 50 % the other models see 50 and 10: enough for a fifth of it, not for a half. Then
+ * the solver's own C_w alone is the objective. */
+static void test_confirmed_gain(void)
+{
+    struct config asked = {.pressure = NAN, .speeds = NAN, .models = 2, .confirm = 0.5};
+    struct evaluation e[2] = {{.cw = 2, .models = 2, .cw_model = {4, 1}},
+                              {.id = 1, .cw = 1, .models = 2, .cw_model = {2, 0.9}}};
+    double lower[OUTCOME_MOST], upper[OUTCOME_MOST], ratio[OUTCOME_MOST];
+    for (size_t p = 0; p < PARTICULARS; p++)
+        asked.particular[p][0] = asked.particular[p][1] = NAN;
+    CU_ASSERT_EQUAL(outcome_bounds(&asked, lower, upper), 2);
+    outcome_ratios(&asked, &e[1], &e[0], ratio);
+    CHECK_CLOSE(ratio[0] - upper[0], -0.25, 1e-15); /* 1 - 0.5 asks for 0.75 */
+    CHECK_CLOSE(ratio[1] - upper[1], 0.15, 1e-15);  /* it has 0.9 */
+    CU_ASSERT_EQUAL(outcome_objective(&asked, &e[1], &e[0]), 1);
+    CU_ASSERT_FALSE(outcome_allowed(&asked, &e[1], &e[0]));
+    asked.confirm = 0.2;
+    CU_ASSERT_TRUE(outcome_allowed(&asked, &e[1], &e[0]));
 }
 
 static const struct check_case cases[] = {
@@ -213,6 +235,7 @@ static const struct check_case cases[] = {
     {"hulls without their files", test_restored},
     {"designs that can be the best", test_allowed_designs},
     {"the worst of several models", test_worst_of_models},
+    {"a share of the gain confirmed", test_confirmed_gain},
 };
 
 int main(void)

@@ -22,6 +22,7 @@ static struct config config = {.path = "run.yaml",
                                .entrance = NAN,
                                .pressure = NAN,
                                .speeds = NAN,
+                               .confirm = NAN,
                                .text = "a = 1\n"};
 static struct problem problem = {.config = &config};
 

@@ -30,8 +30,7 @@ static const char *strategy(int value)
 
 static const char *method(int value)
 {
-    static const char *const names[] = {"bayesian", "gauss-newton", NULL};
-    return names[value];
+    return method_row(value) ? method_row(value)->name : NULL;
 }
 
 #define ROW(...) SETTING_ROW(struct config, __VA_ARGS__)
@@ -127,13 +126,15 @@ static const struct setting ROWS[] = {
         "largest tangent of the Kochin integral", SETTING_ABOVE(1)),
     ROW("solver.tolerance", NUMBER, solver.tolerance, "relative error asked of the quadrature",
         SETTING_INSIDE(0, 0.1)),
-    ROW("search.method", CHOICE, method,
-        "a Gaussian process, or descent by derivatives of the Kochin function", .choice = method,
+    ROW("search.method", CHOICE, method, "how the best design is looked for", .choice = method,
         .otherwise = "bayesian"),
     ROW("search.models", CHOICE, model,
         "formulations besides solver.formulation: what counts is the worst of them",
         .choice = formulation, .n_most = CONFIG_MODELS_MOST,
         .count = offsetof(struct config, models)),
+    ROW("search.confirm", NUMBER, confirm,
+        "share of the gain of solver.formulation that each of search.models must see instead",
+        SETTING_INSIDE(0, 1), .words = NONE, .otherwise = "none"),
     ROW("search.initial", COUNT, initial, "designs before the first proposal", SETTING_FROM(2, 1e5),
         .otherwise = "200"),
     ROW("search.iterations", COUNT, iterations, "proposals after them", SETTING_FROM(0, 1e5),
@@ -188,6 +189,8 @@ static void check(struct settings_source *source, void *target)
     if (!isnan(c->speeds) && !c->verify_froudes)
         settings_complain(source, "constraints.speeds",
                           "needs a list of speeds in verification.froude");
+    if (!isnan(c->confirm) && !c->models)
+        settings_complain(source, "search.confirm", "needs search.models");
     check_places(source, c);
     if (!isnan(c->pressure) && !igabem_formulation_info(c->solver.formulation)->pressure)
         settings_complain(source, "constraints.pressure",

@@ -3,6 +3,7 @@
 #ifndef HULLOPT_CONFIG_H
 #define HULLOPT_CONFIG_H
 
+#include "methods.h"
 #include "settings.h"
 
 #include <bayesopt/bayesopt.h>
@@ -13,8 +14,6 @@
 #include <stdint.h>
 
 enum { CONFIG_FROUDE_MOST = 8, CONFIG_MODELS_MOST = 4, CONFIG_PLACES_MOST = 40, PARTICULARS = 15 };
-
-enum search_method { SEARCH_BAYESIAN, SEARCH_GAUSS_NEWTON };
 
 struct config {
     char *path;         /* of the YAML file; the paths below are resolved against its folder */
@@ -35,9 +34,10 @@ struct config {
     double kg;                           /* centre of gravity above the deepest point, m */
     size_t stations, hard_points, boxes; /* numbers below: x; x, z; x, x, y, z, z */
     double station[CONFIG_PLACES_MOST], hard_point[CONFIG_PLACES_MOST], box[CONFIG_PLACES_MOST];
-    enum search_method method;
+    int method;    /* of method_row() */
     size_t models; /* formulations besides the solver's: the worst of all is the objective */
     igabem_formulation model[CONFIG_MODELS_MOST];
+    double confirm; /* least share of the gain that they see; NAN: the worst of all counts */
     size_t initial, iterations;
     bayesopt_design_kind design;
     bayesopt_strategy strategy;

@@ -11,10 +11,16 @@ struct options {
     bool resume;
     char *address; /* of a server, and its port */
     int port, jobs;
+    double *latent, *parameters; /* of one design */
+    size_t n_latent, n_parameters;
     bool json;    /* the result on standard output instead of the figures */
     double start; /* of the command, cli_seconds() */
 };
 
+/* One design, for an optimiser of one's own. */
+int evaluate_command(const struct options *options);
+/* What a run may gain and what each constraint costs. */
+int forecast_command(const struct options *options);
 /* All stages of an optimisation, from the configuration to the report. */
 int run_command(const struct options *options);
 /* Writes summary, hulls and report of a run folder again, into the folder `out` or, when that is

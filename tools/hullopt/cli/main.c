@@ -13,6 +13,8 @@ static const char HELP[] =
     "       hullopt run CONFIG.yaml --out DIR [--resume] [options]\n"
     "       hullopt report DIR [options]\n"
     "       hullopt status DIR [options]\n"
+    "       hullopt forecast CONFIG.yaml [options]\n"
+    "       hullopt evaluate CONFIG.yaml --latent U,... | --parameters X,... [options]\n"
     "       hullopt serve CONFIG.yaml [options]\n"
     "\n"
     "init    writes a configuration with every key, its meaning and its default.\n"
@@ -28,6 +30,12 @@ static const char HELP[] =
     "        another folder by --out. Of one that may not be written it prints the figures "
     "alone.\n"
     "status  tells how far the run in DIR is, also while it is at work. Writes nothing.\n"
+    "forecast  tells, from one Jacobian at the original, what a search may gain, what confirmation "
+    "by\n"
+    "        the other models costs, and what each constraint costs.\n"
+    "evaluate  builds and solves one design and tells its figures and what it breaks; a design "
+    "that\n"
+    "        cannot be evaluated is a failure.\n"
     "serve   offers the problem of CONFIG.yaml as a model of UM-Bridge: latent variables in; C_w,\n"
     "        constraints (<= 0 where kept) and particulars out. Stops on SIGINT and SIGTERM.\n";
 
@@ -93,6 +101,21 @@ static const struct setting SERVE[] = {
         .option = "jobs", SETTING_FROM(1, 64), .otherwise = "1"),
 };
 
+static const struct setting FORECAST[] = {
+    HEADING("forecast"),
+    ROW(TEXT, path, "the configuration", .option = "CONFIG.yaml", .required = true),
+    JSON,
+};
+static const struct setting EVALUATE[] = {
+    HEADING("evaluate"),
+    ROW(TEXT, path, "the configuration", .option = "CONFIG.yaml", .required = true),
+    ROW(NUMBERS, latent, "latent variables", .option = "latent",
+        .count = offsetof(struct options, n_latent)),
+    ROW(NUMBERS, parameters, "parameters of the shape instead", .option = "parameters",
+        .count = offsetof(struct options, n_parameters)),
+    JSON,
+};
+
 #define COMMAND(name, list)                                                                        \
     {                                                                                              \
 #name, {sizeof list / sizeof *list, list, .usage = HELP }, name##_command                  \
@@ -101,8 +124,9 @@ static const struct command {
     const char *name;
     struct settings table;
     int (*run)(const struct options *options);
-} COMMANDS[] = {COMMAND(init, INIT),     COMMAND(check, CHECK),   COMMAND(run, RUN),
-                COMMAND(report, REPORT), COMMAND(status, STATUS), COMMAND(serve, SERVE)};
+} COMMANDS[] = {COMMAND(init, INIT),         COMMAND(check, CHECK),   COMMAND(run, RUN),
+                COMMAND(report, REPORT),     COMMAND(status, STATUS), COMMAND(forecast, FORECAST),
+                COMMAND(evaluate, EVALUATE), COMMAND(serve, SERVE)};
 enum { N_COMMANDS = sizeof COMMANDS / sizeof *COMMANDS };
 
 /* The options of all commands. */
@@ -129,7 +153,8 @@ static int run_hullopt(int argc, char **argv)
 {
     struct options options = {.froude = NAN, .overrides = {-1, -1}, .start = cli_seconds()};
     if (argc < 2)
-        return cli_usage("no command, expected init, check, run, report, status or serve");
+        return cli_usage(
+            "no command, expected init, check, run, report, status, forecast, evaluate or serve");
     if (strcmp(argv[1], "--help") == 0)
         return print_help(&options);
     if (strcmp(argv[1], "--version") == 0)
@@ -144,7 +169,8 @@ static int run_hullopt(int argc, char **argv)
         settings_free(&command->table, &options);
         return code;
     }
-    return cli_usage("unknown command '%s', expected init, check, run, report, status or serve",
+    return cli_usage("unknown command '%s', expected init, check, run, report, status, forecast, "
+                     "evaluate or serve",
                      argv[1]);
 }
 

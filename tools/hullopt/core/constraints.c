@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 /* What is known of a latent point by its grid: half breadths, which two of the limits need, and the
  * particulars where one is bounded. */
@@ -16,8 +17,9 @@ struct known {
 };
 
 /* What is bounded is the ratio of a figure to that of the parent, or a particular's change:
- * |ratio - 1| <= limit, ratio >= limit, ratio <= limit, least <= ratio <= most. */
-enum bound { CHANGE, LEAST, MOST, RANGE };
+ * |ratio - 1| <= limit, ratio >= limit, ratio <= limit, least <= ratio <= most, or 1 - ratio at
+ * least that share of what the solver's own formulation gains. */
+enum bound { CHANGE, LEAST, MOST, RANGE, SHARE };
 
 struct constraint {
     const char *name, *label, *unit;
@@ -80,6 +82,7 @@ FIGURE(volume, e->volume)
 FIGURE(breadth, e->breadth)
 FIGURE(entrance, e->nu_s)
 FIGURE(pressure, e->cw_pressure)
+FIGURE(by_model, speed < e->models ? e->cw_model[speed] : NAN)
 FIGURE(at_speed, speed < e->speeds ? e->cw_speed[speed] : NAN)
 
 #define AT(member) .limit = offsetof(struct config, member)
@@ -96,6 +99,8 @@ static const struct constraint TABLE[] = {
      .figure = pressure},
     {"speeds", "C_w at other speeds, the one that rises most", "10⁻³", 1e3, 4, AT(speeds),
      .bound = MOST, .speeds = true, .figure = at_speed},
+    {"confirm", "C_w by the model that confirms least", "10⁻³", 1e3, 4, AT(confirm), .bound = SHARE,
+     .figure = by_model},
 };
 enum { OWN = sizeof TABLE / sizeof *TABLE, ROWS = OWN + PARTICULARS };
 
@@ -138,6 +143,7 @@ static void bounds_of(const struct constraint *c, const struct config *config, d
     bound[1] = c->bound == CHANGE  ? 1 + band
                : c->bound == MOST  ? *limit
                : c->bound == RANGE ? limit[1]
+               : c->bound == SHARE ? 1 - *limit
                                    : INFINITY;
 }
 
@@ -195,6 +201,16 @@ size_t limits_count(const struct config *config)
     return n;
 }
 
+static bool know_particulars(struct known *known)
+{
+    const galv_model *model = known->problem->model;
+    double *points = malloc(3 * galv_model_points(model) * sizeof *points);
+    bool ok = points && galv_displace(model, known->u, points) == GALV_OK &&
+              particulars_of(known->problem, points, false, known->particular);
+    free(points);
+    return ok;
+}
+
 int limits_evaluate(void *user_data, size_t d, const double *u, double *value)
 {
     const struct problem *problem = user_data;
@@ -202,7 +218,7 @@ int limits_evaluate(void *user_data, size_t d, const double *u, double *value)
     (void)d;
     if (galv_limits_breadth(problem->limits, u, &known.least, &known.share) != GALV_OK)
         return 1;
-    if (asks_particulars(problem->config) && !particulars_of(problem, u, false, known.particular))
+    if (asks_particulars(problem->config) && !know_particulars(&known))
         return 1;
     *value++ = -known.least / problem_length(problem) - TOUCH;
     for (size_t k = 0; k < ROWS; k++) {
@@ -217,6 +233,17 @@ int limits_evaluate(void *user_data, size_t d, const double *u, double *value)
     return 0;
 }
 
+double limits_excess(struct problem *problem, const double *u)
+{
+    double value[2 * ROWS + 1], most = -INFINITY;
+    size_t n = limits_count(problem->config);
+    if (limits_evaluate(problem, galv_model_modes(problem->model), u, value) != 0)
+        return INFINITY;
+    for (size_t i = 0; i < n; i++)
+        most = fmax(most, value[i]);
+    return most;
+}
+
 /* The limit as it is read: changes in per cent, shares as they are. */
 static void print_limit(const struct constraint *c, const struct config *config, char text[32])
 {
@@ -226,6 +253,8 @@ static void print_limit(const struct constraint *c, const struct config *config,
         snprintf(text, 32, "none");
     else if (c->bound == RANGE)
         snprintf(text, 32, "%g to %g", bound[0], bound[1]);
+    else if (c->bound == SHARE)
+        snprintf(text, 32, "≥ %g of the gain", limit);
     else if (c->bound == LEAST)
         snprintf(text, 32, "≥ %g", limit);
     else
@@ -251,7 +280,17 @@ bool limits_kept(const struct config *config, const struct evaluation *e,
 
 static size_t count_ratios(const struct constraint *c, const struct config *config)
 {
-    return c->speeds ? config->verify_froudes * (1 + config->models) : 1;
+    return c->speeds           ? config->verify_froudes * (1 + config->models)
+           : c->bound == SHARE ? config->models
+                               : 1;
+}
+
+/* What is bounded of outcome i. */
+static double outcome(const struct constraint *c, const struct config *config,
+                      const struct evaluation *e, const struct evaluation *parent, size_t i)
+{
+    double ratio = c->figure(e, i) / c->figure(parent, i);
+    return c->bound == SHARE ? ratio - config->confirm * e->cw / parent->cw : ratio;
 }
 
 size_t outcome_bounds(const struct config *config, double lower[OUTCOME_MOST],
@@ -278,7 +317,7 @@ void outcome_ratios(const struct config *config, const struct evaluation *e,
         const struct constraint *c = &TABLE[k];
         size_t count = count_ratios(c, config);
         for (size_t i = 0; !c->known && !isnan(limit_of(c, config)) && i < count; i++)
-            *ratio++ = c->figure(e, i) / c->figure(parent, i);
+            *ratio++ = outcome(c, config, e, parent, i);
     }
 }
 
@@ -286,8 +325,8 @@ bool outcome_allowed(const struct config *config, const struct evaluation *e,
                      const struct evaluation *parent)
 {
     double lower[OUTCOME_MOST], upper[OUTCOME_MOST], ratio[OUTCOME_MOST];
-    if (e->failed || e->id == parent->id)
-        return !e->failed;
+    if (e->failed || e->id == parent->id || e->outside > OUTSIDE)
+        return !e->failed && e->id == parent->id;
     size_t n = outcome_bounds(config, lower, upper);
     outcome_ratios(config, e, parent, ratio);
     for (size_t i = 0; i < n; i++)
@@ -296,10 +335,11 @@ bool outcome_allowed(const struct config *config, const struct evaluation *e,
     return true;
 }
 
-double outcome_objective(const struct evaluation *e, const struct evaluation *parent)
+double outcome_objective(const struct config *config, const struct evaluation *e,
+                         const struct evaluation *parent)
 {
     double worst = e->cw / parent->cw;
-    for (size_t i = 0; i < e->models; i++)
+    for (size_t i = 0; i < e->models && isnan(config->confirm); i++)
         worst = fmax(worst, e->cw_model[i] / parent->cw_model[i]);
     return worst * parent->cw;
 }
@@ -318,6 +358,20 @@ const struct evaluation *outcome_best(const struct config *config, size_t n,
 size_t constraints_count(void)
 {
     return ROWS;
+}
+
+const char *constraints_name(size_t k)
+{
+    return row(k).name;
+}
+
+bool constraints_drop(struct config *config, size_t k)
+{
+    const struct constraint c = row(k);
+    double *limit = (double *)(void *)((char *)config + c.limit);
+    bool had = !isnan(*limit);
+    *limit = NAN;
+    return had;
 }
 
 /* Of the worse end, where a particular has several places. */
@@ -343,8 +397,8 @@ void constraints_figures(const struct config *config, size_t k, const struct eva
 {
     const struct constraint own = row(k), *c = &own;
     size_t most = 0;
-    for (size_t i = 1; c->speeds && i < e->speeds; i++)
-        if (c->figure(e, i) / c->figure(parent, i) > c->figure(e, most) / c->figure(parent, most))
+    for (size_t i = 1; c->figure && i < count_ratios(c, config); i++)
+        if (outcome(c, config, e, parent, i) > outcome(c, config, e, parent, most))
             most = i;
     *f = (struct constraint_figures){.name = c->name,
                                      .label = c->label,
@@ -352,7 +406,7 @@ void constraints_figures(const struct config *config, size_t k, const struct eva
                                      .decimals = c->decimals,
                                      .scale = c->scale,
                                      .allowed = limit_of(c, config),
-                                     .is_optional = k >= OWN};
+                                     .is_optional = k >= OWN || c->bound == SHARE};
     if (c->bound == RANGE) {
         range_figures(c, config, parent, e, f);
     } else {
@@ -360,7 +414,7 @@ void constraints_figures(const struct config *config, size_t k, const struct eva
         f->after = c->figure(e, most);
         f->ratio = f->after / f->before;
         f->change = f->ratio - 1;
-        f->excess = excess_of(c, config, f->ratio);
+        f->excess = excess_of(c, config, c->known ? f->ratio : outcome(c, config, e, parent, most));
     }
     f->kept = isnan(f->allowed) || f->excess <= 0;
     print_limit(c, config, f->limit);

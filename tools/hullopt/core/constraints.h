@@ -5,12 +5,17 @@
 
 #include "core/evaluate.h"
 
-enum { OUTCOME_MOST = 1 + SPEEDS_MOST };
+enum { OUTCOME_MOST = 1 + CONFIG_MODELS_MOST + SPEEDS_MOST };
 
 /* Limits known before a design is built: how many, and their values, <= 0 where allowed. The second
  * is a bayesopt_input_constraint with a struct problem for its user_data. */
 size_t limits_count(const struct config *config);
 int limits_evaluate(void *problem, size_t d, const double *u, double *value);
+
+/* The largest of them; infinity where they are not known. */
+double limits_excess(struct problem *problem, const double *u);
+/* Up to here a design is inside: steps end on limits. */
+#define OUTSIDE 2e-4
 
 /* Whether a built design keeps what decides before it is solved; else says why not. */
 bool limits_kept(const struct config *config, const struct evaluation *e,
@@ -27,7 +32,8 @@ void outcome_ratios(const struct config *config, const struct evaluation *e,
 bool outcome_allowed(const struct config *config, const struct evaluation *e,
                      const struct evaluation *parent);
 /* The objective of a design by its figures and those of the parent. */
-double outcome_objective(const struct evaluation *e, const struct evaluation *parent);
+double outcome_objective(const struct config *config, const struct evaluation *e,
+                         const struct evaluation *parent);
 /* The best of a list whose first is the parent; NULL when that failed too. */
 const struct evaluation *outcome_best(const struct config *config, size_t n,
                                       const struct evaluation *list);
@@ -46,6 +52,9 @@ struct constraint_figures {
     char limit[32];   /* "±2 %", "≥ 0.2", "≤ +25 %", "none" */
 };
 size_t constraints_count(void);
+const char *constraints_name(size_t k);
+/* Takes constraint k out of a configuration; false: it has none. */
+bool constraints_drop(struct config *config, size_t k);
 void constraints_figures(const struct config *config, size_t k, const struct evaluation *parent,
                          const struct evaluation *e, struct constraint_figures *figures);
 

@@ -1,7 +1,8 @@
 #include "core/descent.h"
 
 #include "core/constraints.h"
-#include "core/gauss_newton.h"
+#include "core/forecast.h"
+#include "core/gn_model.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -11,10 +12,12 @@
 /* The coarse mesh for derivatives: three quarters of the elements each way, ten times the tolerance
  * of the quadrature. */
 static const double COARSE_SHARE = 0.75, COARSE_TOLERANCE = 10;
-enum { ALONG = 60, AROUND = 16 }; /* samples of the pressure */
+static const double WHOLE_BOX = 2; /* a radius that the box ends before */
+enum { ALONG = 60, AROUND = 16 };  /* samples of the pressure */
 
 struct descent {
-    struct search *search;
+    struct problem *base;
+    struct search *search; /* NULL: a forecast, which keeps no record */
     struct gn_problem problem;
     struct gn_sample *sample; /* to be filled by look() */
     igabem_options coarse[SETTINGS_MOST];
@@ -67,6 +70,14 @@ static int is_recorded(const struct descent *d, const double *u)
     return found;
 }
 
+static void keep_values(const struct evaluation *e, struct gn_sample *sample)
+{
+    sample->value[0] = e->cw;
+    memcpy(sample->value + 1, e->cw_model, e->models * sizeof *e->cw_model);
+    memcpy(sample->value + 1 + e->models, e->cw_speed, e->speeds * sizeof *e->cw_speed);
+    sample->pressure = e->cw_pressure;
+}
+
 static enum gn_answer fine(void *user_data, const double *u, struct gn_sample *sample)
 {
     struct descent *d = user_data;
@@ -90,10 +101,7 @@ static enum gn_answer fine(void *user_data, const double *u, struct gn_sample *s
     search_show(search, d->line);
     if (e.failed)
         return GN_FAILED;
-    sample->value[0] = e.cw;
-    memcpy(sample->value + 1, e.cw_model, e.models * sizeof *e.cw_model);
-    memcpy(sample->value + 1 + e.models, e.cw_speed, e.speeds * sizeof *e.cw_speed);
-    sample->pressure = e.cw_pressure;
+    keep_values(&e, sample);
     return GN_VALUED;
 }
 
@@ -104,11 +112,13 @@ static enum gn_answer coarse(void *user_data, const double *u, struct gn_sample 
     igabem_solution *solutions[SETTINGS_MOST];
     char what[80];
     snprintf(what, sizeof what, "derivatives, solve %zu", ++d->differentiated);
-    search_show(d->search, what);
-    d->ok = core_goes_on(d->search->watch);
+    if (d->search) {
+        search_show(d->search, what);
+        d->ok = core_goes_on(d->search->watch);
+    }
     if (!d->ok)
         return GN_STOP;
-    if (!problem_build(d->search->problem, u, &design))
+    if (!problem_build(d->base, u, &design))
         return GN_FAILED;
     bool ok =
         igabem_solve_many(design.body, d->problem.settings, d->coarse, solutions) == IGABEM_OK;
@@ -125,7 +135,7 @@ static enum gn_answer coarse(void *user_data, const double *u, struct gn_sample 
 static bool limit(void *user_data, const double *u, double *value)
 {
     struct descent *d = user_data;
-    return limits_evaluate(d->search->problem, d->problem.n, u, value) == 0;
+    return limits_evaluate(d->base, d->problem.n, u, value) == 0;
 }
 
 static void keep_line(void *user_data, const char *sentence)
@@ -144,7 +154,7 @@ static void coarsen(igabem_options *options)
 /* Of the samples of the pressure that every design has. */
 static bool count_points(struct descent *d)
 {
-    struct problem *problem = d->search->problem;
+    struct problem *problem = d->base;
     igabem_solution *solution;
     if (isnan(problem->config->pressure))
         return true;
@@ -157,10 +167,43 @@ static bool count_points(struct descent *d)
     return ok;
 }
 
+/* What a setting counts for: objective, confirmation, or another speed. */
+static struct gn_setting weigh(const struct config *config, size_t m)
+{
+    if (m > config->models)
+        return (struct gn_setting){config->speeds, 0};
+    if (m == 0 || isnan(config->confirm))
+        return (struct gn_setting){0, 1};
+    return (struct gn_setting){1 - config->confirm, config->confirm};
+}
+
+/* setting: room for SETTINGS_MOST, borrowed. */
+static bool start(struct problem *base, struct gn_setting *setting, struct descent *d)
+{
+    const struct config *config = base->config;
+    d->base = base;
+    d->ok = true;
+    d->problem = (struct gn_problem){.n = galv_model_modes(base->model),
+                                     .lower = galv_model_lower(base->model),
+                                     .upper = galv_model_upper(base->model),
+                                     .settings = evaluate_settings(base, d->coarse),
+                                     .setting = setting,
+                                     .pressure = config->pressure,
+                                     .limits = limits_count(config),
+                                     .limit = limit,
+                                     .coarse = coarse,
+                                     .fine = fine,
+                                     .tell = keep_line,
+                                     .user_data = d};
+    for (size_t m = 0; m < d->problem.settings; m++) {
+        coarsen(&d->coarse[m]);
+        setting[m] = weigh(config, m);
+    }
+    return count_points(d);
+}
+
 bool descent_run(struct search *search, double *u)
 {
-    const struct config *config = search->problem->config;
-    const galv_model *model = search->problem->model;
     struct gn_setting setting[SETTINGS_MOST];
     char *stop;
     if (!record_get_text(search->record, "stop", &stop))
@@ -169,29 +212,92 @@ bool descent_run(struct search *search, double *u)
     free(stop);
     if (stopped)
         return true;
-    struct descent d = {.search = search, .ok = true};
-    d.problem = (struct gn_problem){.n = galv_model_modes(model),
-                                    .lower = galv_model_lower(model),
-                                    .upper = galv_model_upper(model),
-                                    .settings = evaluate_settings(search->problem, d.coarse),
-                                    .setting = setting,
-                                    .pressure = config->pressure,
-                                    .limits = limits_count(config),
-                                    .limit = limit,
-                                    .coarse = coarse,
-                                    .fine = fine,
-                                    .tell = keep_line,
-                                    .user_data = &d};
-    for (size_t m = 0; m < d.problem.settings; m++) {
-        coarsen(&d.coarse[m]);
-        setting[m] = m <= config->models ? (struct gn_setting){0, 1}
-                                         : (struct gn_setting){config->speeds, 0};
-    }
-    if (!count_points(&d))
+    struct descent d = {.search = search};
+    if (!start(search->problem, setting, &d))
         return false;
     if (!gn_run(&d.problem, u))
         return d.ok && core_no_memory();
     return d.ok &&
            record_put_text(search->record, "stop",
-                           d.valued == config->iterations ? "budget spent" : "no step gains more");
+                           d.valued == search->problem->config->iterations ? "budget spent"
+                                                                           : "no step gains more");
+}
+
+/* The parent alone is valued. */
+static enum gn_answer value_parent(void *user_data, const double *u, struct gn_sample *sample)
+{
+    struct descent *d = user_data;
+    struct evaluation e;
+    (void)u;
+    d->sample = sample;
+    evaluation_start(0, "parent", NULL, &e);
+    evaluate_parent(d->base, &e, look, d);
+    if (e.failed)
+        return GN_FAILED;
+    keep_values(&e, sample);
+    return GN_VALUED;
+}
+
+/* Without the constraint of row k: whether there was one. */
+static bool drop(const struct config *config, size_t k, struct config *without)
+{
+    *without = *config;
+    return constraints_drop(without, k);
+}
+
+static double least(struct descent *d, const struct gn_model *model, const struct config *config,
+                    double *step)
+{
+    const struct config *keep = d->base->config;
+    d->base->config = config;
+    d->problem.pressure = config->pressure;
+    d->problem.limits = limits_count(config);
+    for (size_t m = 0; m < d->problem.settings; m++) {
+        struct gn_setting *s = (struct gn_setting *)&d->problem.setting[m];
+        *s = weigh(config, m);
+        if (m > config->models && isnan(config->speeds))
+            s->offset = HUGE_VAL; /* never reached */
+    }
+    double ratio = gn_model_minimise(model, WHOLE_BOX, step);
+    d->base->config = keep;
+    return ratio;
+}
+
+static void fill(struct descent *d, const struct gn_model *model, struct forecast *f, double *step)
+{
+    struct config other = *d->base->config;
+    for (size_t i = 0; i < FORECAST_SHARES && other.models; i++) {
+        double share = FORECAST_SHARE[i];
+        other.confirm = share == 1 ? NAN : share;
+        f->confirmed[i] = least(d, model, &other, step);
+    }
+    f->asked = least(d, model, d->base->config, step);
+    for (size_t k = 0; k < constraints_count() && k < FORECAST_ROWS; k++)
+        f->without[k] = drop(d->base->config, k, &other) ? least(d, model, &other, step) : NAN;
+}
+
+bool forecast_run(struct problem *problem, struct forecast *f)
+{
+    struct gn_setting setting[SETTINGS_MOST];
+    struct gn_model model;
+    struct descent d = {.search = NULL};
+    for (size_t k = 0; k < FORECAST_ROWS; k++)
+        f->without[k] = NAN;
+    for (size_t i = 0; i < FORECAST_SHARES; i++)
+        f->confirmed[i] = NAN;
+    if (!start(problem, setting, &d))
+        return false;
+    d.problem.fine = value_parent;
+    double *step = calloc(d.problem.n, sizeof *step);
+    bool ok = (step || core_no_memory()) &&
+              (gn_at_parent(&d.problem, &model) ||
+               core_fail("%s: the derivatives at the original cannot be had (%s)",
+                         problem->config->path, core_sentence()));
+    if (ok) {
+        fill(&d, &model, f, step);
+        f->solves = d.differentiated;
+        gn_leave(&model);
+    }
+    free(step);
+    return ok;
 }

@@ -22,6 +22,7 @@ void evaluation_start(uint64_t id, const char *phase, const double *u, struct ev
                              .volume_ratio = NAN,
                              .wetted_area = NAN,
                              .bound = NAN,
+                             .outside = NAN,
                              .breadth = NAN,
                              .nu_s = NAN};
     for (size_t i = 0; i < CONFIG_MODELS_MOST; i++)
@@ -32,8 +33,21 @@ void evaluation_start(uint64_t id, const char *phase, const double *u, struct ev
         e->particular[i][0] = e->particular[i][1] = NAN;
 }
 
+/* Least share of its half breadth that a wet point keeps. */
+static double breadth_kept(const struct problem *problem, const double *points)
+{
+    const double centre = 1e-6; /* m: nearer ones belong to keel, stem and stern */
+    const double *parent = nurbs_grid_points(problem->grid);
+    size_t n = nurbs_grid_rows(problem->grid) * nurbs_grid_columns(problem->grid);
+    double least = INFINITY;
+    for (size_t k = 0; k < 3 * n; k += 3)
+        if (parent[k + 2] <= 0 && parent[k + 1] > centre)
+            least = fmin(least, points[k + 1] / parent[k + 1]);
+    return least;
+}
+
 static bool measure(const struct problem *problem, const struct design *design,
-                    struct evaluation *e)
+                    const double *points, struct evaluation *e)
 {
     const nurbs_hydrostatics *h = nurbs_hull_hydrostatics(design->hull);
     e->volume = h->volume;
@@ -41,18 +55,17 @@ static bool measure(const struct problem *problem, const struct design *design,
     e->wetted_area = h->wetted_area;
     e->bound = nurbs_hull_bound(design->hull);
     e->nu_s = design_nu_s(design);
-    e->breadth = 1;
-    if (!particulars_of(problem, e->u, true, e->particular))
-        return false;
-    return !e->u || galv_limits_breadth(problem->limits, e->u, NULL, &e->breadth) == GALV_OK ||
-           core_fail("grid: %s", galv_last_error());
+    e->breadth = breadth_kept(problem, points);
+    return particulars_of(problem, points, true, e->particular);
 }
 
 static bool keep_limits(const struct problem *problem, const struct evaluation *e)
 {
     struct evaluation parent;
     evaluation_start(0, NULL, NULL, &parent);
-    return measure(problem, &problem->parent, &parent) && limits_kept(problem->config, e, &parent);
+    return e->outside > OUTSIDE ||
+           (measure(problem, &problem->parent, nurbs_grid_points(problem->grid), &parent) &&
+            limits_kept(problem->config, e, &parent));
 }
 
 static bool compute_forces(const igabem_solution *solution, igabem_forces *forces)
@@ -134,10 +147,11 @@ static bool solve(const struct problem *problem, const igabem_hull *body, struct
     return ok;
 }
 
-static void finish(const struct problem *problem, const struct design *design, double start,
-                   struct viewer viewer, struct evaluation *e)
+/* points: of the grid of the design. */
+static void finish(const struct problem *problem, const struct design *design, const double *points,
+                   double start, struct viewer viewer, struct evaluation *e)
 {
-    bool ok = design && measure(problem, design, e) && keep_limits(problem, e);
+    bool ok = design && measure(problem, design, points, e) && keep_limits(problem, e);
     double built = cli_seconds();
     ok = ok && solve(problem, design->body, viewer, e);
     e->geometry_seconds = built - start;
@@ -151,13 +165,26 @@ void evaluate(struct problem *problem, struct evaluation *e, evaluate_look look,
 {
     struct design design;
     double start = cli_seconds();
+    e->outside = limits_excess(problem, e->u);
     bool built = problem_build(problem, e->u, &design);
-    finish(problem, built ? &design : NULL, start, (struct viewer){look, user_data}, e);
+    finish(problem, built ? &design : NULL, nurbs_grid_points(problem->moved), start,
+           (struct viewer){look, user_data}, e);
+    design_free(&design);
+}
+
+void evaluate_points(struct problem *problem, const double *points, struct evaluation *e)
+{
+    struct design design;
+    double start = cli_seconds();
+    e->outside = INFINITY; /* nothing is known beforehand: the figures of the built design decide */
+    bool built = problem_build_points(problem, points, &design);
+    finish(problem, built ? &design : NULL, points, start, (struct viewer){NULL, NULL}, e);
     design_free(&design);
 }
 
 void evaluate_parent(struct problem *problem, struct evaluation *e, evaluate_look look,
                      void *user_data)
 {
-    finish(problem, &problem->parent, cli_seconds(), (struct viewer){look, user_data}, e);
+    finish(problem, &problem->parent, nurbs_grid_points(problem->grid), cli_seconds(),
+           (struct viewer){look, user_data}, e);
 }

@@ -28,7 +28,8 @@ struct evaluation {
                       solved at other speeds */
     double cw_speed[SPEEDS_MOST];
     double volume, volume_ratio, wetted_area, bound;
-    double breadth;                    /* least share of its half breadth that a wet point keeps */
+    double outside; /* by how much it breaks what is known beforehand; <= 0: it does not */
+    double breadth; /* least share of its half breadth that a wet point keeps */
     double particular[PARTICULARS][2]; /* of particulars_of() */
     double nu_s;                       /* of the waterline, as design_nu_s() */
     size_t dofs;
@@ -51,6 +52,9 @@ typedef bool (*evaluate_look)(void *user_data, igabem_solution *const *solutions
  * result, not an error. look: NULL, nobody does. */
 void evaluate(struct problem *problem, struct evaluation *evaluation, evaluate_look look,
               void *user_data);
+/* The design of the points of a grid: inside or outside of any limit, which only the figures tell.
+ */
+void evaluate_points(struct problem *problem, const double *points, struct evaluation *evaluation);
 /* The parent, which is built already. */
 void evaluate_parent(struct problem *problem, struct evaluation *evaluation, evaluate_look look,
                      void *user_data);

@@ -259,3 +259,42 @@ bool gn_run(const struct gn_problem *problem, double *x)
     free(vectors);
     return ok;
 }
+
+bool gn_at_parent(const struct gn_problem *p, struct gn_model *model)
+{
+    struct run run = {.problem = p};
+    double *vectors = calloc(2 * p->n, sizeof *vectors);
+    bool ok = vectors && gn_model_create(p, &run.model);
+    ok = sample_create(p, &run.at) && ok;
+    ok = sample_create(p, &run.coarse) && ok;
+    ok = sample_create(p, &run.moved) && ok;
+    if (ok) {
+        run.x = vectors;
+        run.trial = vectors + p->n;
+        ok = p->fine(p->user_data, run.x, &run.at) == GN_VALUED && differentiate(&run) == GN_VALUED;
+    }
+    sample_free(&run.coarse);
+    sample_free(&run.moved);
+    if (!ok) {
+        sample_free(&run.at);
+        gn_model_free(&run.model);
+        free(vectors);
+        return false;
+    }
+    double *parent = run.model.shift + p->settings + 1;
+    memcpy(parent, run.at.value, p->settings * sizeof *parent);
+    run.model.parent = parent;
+    run.model.parent_pressure = run.at.pressure;
+    run.model.base = run.at;
+    run.model.x = vectors;
+    *model = run.model;
+    return true;
+}
+
+void gn_leave(struct gn_model *model)
+{
+    struct gn_sample base = model->base;
+    sample_free(&base);
+    free((void *)model->x);
+    gn_model_free(model);
+}

@@ -27,4 +27,8 @@ void gn_model_differentiate(struct gn_model *model, size_t k, double step,
  * the largest ratio of the objective that it promises, NAN when there is no feasible step. */
 double gn_model_minimise(const struct gn_model *model, double radius, double *d);
 
+/* A model at x = 0, the parent, with everything it borrows: for questions without a search. */
+bool gn_at_parent(const struct gn_problem *problem, struct gn_model *model);
+void gn_leave(struct gn_model *model);
+
 #endif

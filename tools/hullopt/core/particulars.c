@@ -126,25 +126,15 @@ static bool measure(const struct view *v, double value[PARTICULARS][2])
     return measure_fairness(v, value);
 }
 
-bool particulars_of(const struct problem *problem, const double *u, bool all,
+bool particulars_of(const struct problem *problem, const double *points, bool all,
                     double value[PARTICULARS][2])
 {
     const nurbs_grid *grid = problem->grid;
-    struct view v = {.problem = problem,
-                     .all = all,
-                     .sections = nurbs_grid_rows(grid),
-                     .girth = nurbs_grid_columns(grid),
-                     .parent = nurbs_grid_points(grid)};
-    v.xyz = v.parent;
-    if (!u)
-        return measure(&v, value);
-    double *moved = malloc(3 * v.sections * v.girth * sizeof *moved);
-    if (!moved)
-        return core_no_memory();
-    v.xyz = moved;
-    bool ok = (galv_displace(problem->model, u, moved) == GALV_OK ||
-               core_fail("grid: %s", galv_last_error())) &&
-              measure(&v, value);
-    free(moved);
-    return ok;
+    const struct view v = {.problem = problem,
+                           .sections = nurbs_grid_rows(grid),
+                           .girth = nurbs_grid_columns(grid),
+                           .xyz = points,
+                           .parent = nurbs_grid_points(grid),
+                           .all = all};
+    return measure(&v, value);
 }

@@ -31,11 +31,11 @@ struct particular_row {
 };
 const struct particular_row *particular_row(enum particular p);
 
-/* The figures of a latent point (NULL: the parent). Those at several places (stations, hard points,
+/* The figures of the points of a grid. Those at several places (stations, hard points,
  * boxes) are the least and the greatest of their ratios to the parent; for all others value[0] and
- * value[1] are the same. all: also those that nobody bounds, else NAN there. False for a point
+ * value[1] are the same. all: also those that nobody bounds, else NAN there. False for points
  * without a hull. */
-bool particulars_of(const struct problem *problem, const double *u, bool all,
+bool particulars_of(const struct problem *problem, const double *points, bool all,
                     double value[PARTICULARS][2]);
 
 #endif

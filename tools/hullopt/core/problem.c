@@ -53,6 +53,11 @@ static bool build(struct problem *problem, const double *points, struct design *
     return core_fail("hull: %s", igabem_last_error());
 }
 
+bool problem_build_points(struct problem *problem, const double *points, struct design *design)
+{
+    return build(problem, points, design);
+}
+
 bool problem_build(struct problem *problem, const double *u, struct design *design)
 {
     double *points = nurbs_grid_edit(problem->moved);
@@ -249,7 +254,7 @@ bool problem_recall(struct problem *problem, galv_model *model, const double *gr
                            design_nu_s(&problem->parent), &problem->limits) != GALV_OK ||
         (gradient && galv_limits_set_gradient(problem->limits, gradient) != GALV_OK))
         return core_fail("%s: %s", problem->config->hull, galv_last_error());
-    return particulars_of(problem, NULL, true, problem->particular);
+    return particulars_of(problem, nurbs_grid_points(problem->grid), true, problem->particular);
 }
 
 static int show_fraction(void *user_data, double fraction)

@@ -74,7 +74,7 @@ struct member {
 #define OPTION(member) MEMBER(igabem_options, MEMBER_NUMBER, member)
 #define WHOLE(member)  MEMBER(igabem_options, MEMBER_INTEGER, member)
 
-enum { MEMBERS_MOST = 16 };
+enum { MEMBERS_MOST = 20 };
 
 static const struct member EVALUATION[] = {
     FIGURE(cw),
@@ -87,6 +87,7 @@ static const struct member EVALUATION[] = {
     FIGURE(wetted_area),
     FIGURE(bound),
     FIGURE(breadth),
+    FIGURE(outside),
     FIGURE(nu_s),
     FIGURE(propose_seconds),
     FIGURE(geometry_seconds),

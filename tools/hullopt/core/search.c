@@ -2,6 +2,7 @@
 
 #include "cli.h"
 #include "core/constraints.h"
+#include "core/conventional.h"
 #include "core/descent.h"
 
 #include <math.h>
@@ -10,7 +11,8 @@
 
 size_t search_budget(const struct config *config)
 {
-    return 1 + (config->method == SEARCH_BAYESIAN ? config->initial : 0) + config->iterations;
+    bool descent = method_row(config->method)->kind == METHOD_DESCENT;
+    return 1 + (descent ? 0 : config->initial) + config->iterations;
 }
 
 bool search_open(struct problem *problem, const char *path, struct record *record)
@@ -21,8 +23,10 @@ bool search_open(struct problem *problem, const char *path, struct record *recor
     bayesopt_options options;
     bayesopt_options_init(&options);
     options.seed = config->search_seed;
-    options.initial_kind = config->design;
-    options.initial_n = config->initial;
+    const struct method_row *method = method_row(config->method);
+    bool design = method->kind == METHOD_DESIGN;
+    options.initial_kind = design ? method->design : config->design;
+    options.initial_n = config->initial + (design ? config->iterations : 0);
     options.max_evaluations = search_budget(config);
     options.strategy = config->strategy;
     options.n_input_constraints = limits_count(config);
@@ -43,7 +47,7 @@ bool search_open(struct problem *problem, const char *path, struct record *recor
 
 static bool tell(struct search *s, struct evaluation *e)
 {
-    e->objective = outcome_objective(e, &s->parent);
+    e->objective = outcome_objective(s->problem->config, e, &s->parent);
     double ratio[OUTCOME_MOST];
     outcome_ratios(s->problem->config, e, &s->parent, ratio);
     return record_tell(s->record, e, ratio);
@@ -134,12 +138,34 @@ static bool loop(struct search *s, double *u)
     }
 }
 
+static bool run_method(struct search *s, double *u)
+{
+    const struct method_row *method = method_row(s->problem->config->method);
+    char *stop;
+    switch (method->kind) {
+    case METHOD_GAUSSIAN_PROCESS:
+    case METHOD_DESIGN:
+        return loop(s, u);
+    case METHOD_DESCENT:
+        return descent_run(s, u);
+    case METHOD_NLOPT:
+    case METHOD_SWARM:
+        break;
+    }
+    if (!record_get_text(s->record, "stop", &stop))
+        return false;
+    bool stopped = stop != NULL;
+    free(stop);
+    if (stopped)
+        return true;
+    return method->kind == METHOD_NLOPT ? conventional_run(s, method) : swarm_run(s, method);
+}
+
 bool search_run(struct problem *problem, struct record *record, const struct core_watch *watch)
 {
     struct search s = {.problem = problem, .record = record, .watch = watch};
     double *u = malloc(galv_model_modes(problem->model) * sizeof *u);
-    bool ok = (u || core_no_memory()) && begin(&s) &&
-              (problem->config->method == SEARCH_BAYESIAN ? loop(&s, u) : descent_run(&s, u));
+    bool ok = (u || core_no_memory()) && begin(&s) && run_method(&s, u);
     free(u);
     return ok;
 }

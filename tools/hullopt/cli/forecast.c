@@ -1,0 +1,78 @@
+#include "core/forecast.h"
+
+#include "cli.h"
+#include "cli/commands.h"
+#include "core/constraints.h"
+#include "json_result.h"
+#include "shape_yaml.h"
+
+#include <jansson.h>
+#include <math.h>
+
+static void put(json_t *o, const char *name, double ratio)
+{
+    if (!isnan(ratio))
+        json_result_set(o, name, json_real(100 * (1 - ratio)));
+}
+
+/* Reductions of the objective in per cent. */
+static json_t *result(const struct forecast *f)
+{
+    json_t *o = json_object(), *shares = json_object(), *without = json_object();
+    char name[16];
+    put(o, "reduction_percent", f->asked);
+    for (size_t i = 0; i < FORECAST_SHARES; i++) {
+        snprintf(name, sizeof name, "%g", FORECAST_SHARE[i]);
+        put(shares, name, f->confirmed[i]);
+    }
+    for (size_t k = 0; k < constraints_count(); k++)
+        put(without, constraints_name(k), f->without[k]);
+    json_result_set(o, "confirm", shares);
+    json_result_set(o, "without", without);
+    json_result_set(o, "solves", json_integer((json_int_t)f->solves));
+    return o;
+}
+
+static bool print_text(const struct forecast *f)
+{
+    printf("forecast from one Jacobian of %zu coarse solves: reductions of the objective\n"
+           "%-28s%6.1f %%\n",
+           f->solves, "as configured", 100 * (1 - f->asked));
+    for (size_t i = 0; i < FORECAST_SHARES; i++)
+        if (!isnan(f->confirmed[i]))
+            printf("confirm: %-19g%6.1f %%%s\n", FORECAST_SHARE[i], 100 * (1 - f->confirmed[i]),
+                   FORECAST_SHARE[i] == 1 ? ", in the worst of all models" : "");
+    for (size_t k = 0; k < constraints_count(); k++)
+        if (!isnan(f->without[k]))
+            printf("without %-20s%6.1f %%\n", constraints_name(k), 100 * (1 - f->without[k]));
+    return cli_printed() == CLI_OK;
+}
+
+int forecast_command(const struct options *options)
+{
+    const struct core_watch nobody = {.show = NULL};
+    struct config config;
+    struct problem problem;
+    struct forecast f;
+    if (!config_read(options->path, NULL, &config))
+        return CLI_FAILED;
+    bool ok = problem_read(&config, &problem);
+    if (ok) {
+        const nurbs_grid *grid = problem.grid;
+        galv_shape *shape =
+            shape_yaml_read(config.shape, nurbs_grid_rows(grid) * nurbs_grid_columns(grid),
+                            nurbs_grid_points(grid));
+        bool read = shape != NULL;
+        ok = read && problem_reduce(&problem, shape, &nobody) && forecast_run(&problem, &f);
+        ok = ok || (read && cli_refuse("%s", core_sentence()));
+        galv_shape_free(shape);
+        problem_free(&problem);
+    } else {
+        cli_fail("%s", core_sentence());
+    }
+    if (ok)
+        ok = options->json ? json_result_print(result(&f), JSON_INDENT(2)) == CLI_OK
+                           : print_text(&f);
+    config_free(&config);
+    return ok ? CLI_OK : CLI_FAILED;
+}

@@ -1,0 +1,22 @@
+/* What a search may gain, before anything is searched: the step's problem of gauss_newton.h over
+ * the whole box, from one Jacobian at the parent. */
+#ifndef HULLOPT_FORECAST_H
+#define HULLOPT_FORECAST_H
+
+#include "core/problem.h"
+
+enum { FORECAST_SHARES = 5, FORECAST_ROWS = 32 };
+/* Of the gain that the other models must see; 1: the worst of all models is the objective. */
+static const double FORECAST_SHARE[FORECAST_SHARES] = {0, 0.25, 0.5, 0.75, 1};
+
+/* Ratios of the objective to the parent's; NAN: not asked for, or no step is allowed. */
+struct forecast {
+    double asked;                      /* as configured */
+    double confirmed[FORECAST_SHARES]; /* with search.confirm of each share */
+    double without[FORECAST_ROWS]; /* as configured, but for that row of constraints_figures() */
+    size_t solves;                 /* on the coarse mesh */
+};
+
+bool forecast_run(struct problem *problem, struct forecast *forecast);
+
+#endif
