@@ -57,6 +57,16 @@ static double *copy(const double *from, size_t n, double otherwise)
     return to;
 }
 
+/* Bounds of constraints, then those of the other objectives, which have none. */
+static double *extend(const double *from, size_t n, double otherwise, size_t total)
+{
+    double *to = malloc((total ? total : 1) * sizeof *to);
+    double none = isinf(otherwise) ? otherwise : INFINITY;
+    for (size_t i = 0; to && i < total; i++)
+        to[i] = i >= n ? none : from ? from[i] : otherwise;
+    return to;
+}
+
 /* Kinds and names, and what follows from them. */
 static bool describe(struct bayesopt *bo, const bayesopt_options *o)
 {
@@ -100,11 +110,14 @@ bayesopt_status bayesopt_create(size_t d, const double *lower, const double *upp
                                 const bayesopt_options *options, bayesopt **out)
 {
     NEED(out);
-    bayesopt_options defaults;
-    if (!options) {
-        bayesopt_options_init(&defaults);
-        options = &defaults;
-    }
+    bayesopt_options filled;
+    if (options)
+        filled = *options;
+    else
+        bayesopt_options_init(&filled);
+    if (!filled.n_objectives) /* of callers that know of one only */
+        filled.n_objectives = 1;
+    options = &filled;
     bayesopt_status status = options_check(d, lower, upper, options);
     size_t *group = NULL;
     if (!status)
@@ -123,8 +136,14 @@ bayesopt_status bayesopt_create(size_t d, const double *lower, const double *upp
     bo->session = 1;
     bo->lower = copy(lower, d, 0);
     bo->upper = copy(upper, d, 0);
-    bo->constraint_lower = copy(o->constraint_lower, o->n_constraints, -INFINITY);
-    bo->constraint_upper = copy(o->constraint_upper, o->n_constraints, 0);
+    size_t outcomes = o->n_constraints + o->n_objectives - 1;
+    bo->constraint_lower = extend(o->constraint_lower, o->n_constraints, -INFINITY, outcomes);
+    bo->constraint_upper = extend(o->constraint_upper, o->n_constraints, 0, outcomes);
+    bo->options.n_constraints = outcomes;
+    for (size_t k = 1; k < o->n_objectives; k++)
+        bo->maximise[k] = o->maximise_others && o->maximise_others[k - 1];
+    bo->maximise[0] = o->maximise;
+    bo->options.maximise_others = bo->maximise + 1;
     bo->linear_a = copy(o->linear_a, o->n_linear * d, 0);
     bo->linear_b = copy(o->linear_b, o->n_linear, 0);
     bo->initial_x = o->initial_x ? copy(o->initial_x, o->initial_n * d, 0) : NULL;
@@ -133,7 +152,7 @@ bayesopt_status bayesopt_create(size_t d, const double *lower, const double *upp
               bo->linear_a && bo->linear_b && bo->constraint_x && (!o->initial_x || bo->initial_x);
     bo->first_x = o->n_first ? copy(o->first_x, o->n_first * d, 0) : NULL;
     ok = ok && (!o->n_first || bo->first_x) && describe(bo, o);
-    ok = ok && surrogates_create(&bo->surrogates, d, o->n_constraints);
+    ok = ok && surrogates_create(&bo->surrogates, d, outcomes);
     status = ok ? conditions_create(bo, o->n_conditions, o->conditions) : BAYESOPT_OK;
     size_t rows = o->n_linear + bo->conditions.rows + o->n_input_constraints;
     if (ok && !status)

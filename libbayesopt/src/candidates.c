@@ -2,6 +2,7 @@
 #include "search.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 /* Chosen on tests/bench/bayesopt_regret. Perturbations of the best points by two sizes keep all but
  * about `moved_variables` coordinates (Regis and Shoemaker, Engineering Optimization 45 (2013)
@@ -9,10 +10,28 @@
 enum { CENTRES = 5 };
 static const double neighbour_size[2] = {0.02, 0.1}, moved_variables = 8;
 
-/* Rows of the history by merit: feasible ones by value, then the rest by violation. */
-static size_t pick_centres(const struct bayesopt *bo, size_t *centres)
+/* Some of the Pareto set, drawn anew for each proposal; none if nothing is feasible. */
+static size_t pick_front(const struct bayesopt *bo, uint64_t id, size_t *centres)
 {
-    size_t count = 0;
+    struct random_stream stream;
+    size_t n = 0, count = 0, *rows = malloc((bo->n_points + 1) * sizeof *rows);
+    random_start(&stream, bo->options.seed, STREAM_SEARCH, random_hash(id + 1));
+    if (rows && pareto_rows(bo, &n, rows))
+        for (; count < CENTRES && n > 0; count++) {
+            size_t i = random_below(&stream, n);
+            centres[count] = rows[i];
+            rows[i] = rows[--n];
+        }
+    free(rows);
+    return count;
+}
+
+/* Rows of the history by merit: feasible ones by value, then the rest by violation. */
+static size_t pick_centres(const struct bayesopt *bo, uint64_t id, size_t *centres)
+{
+    size_t count = bo->options.n_objectives > 1 ? pick_front(bo, id, centres) : 0;
+    if (count)
+        return count;
     for (; count < CENTRES; count++) {
         size_t best = SIZE_MAX;
         struct merit most = merit_worst;
@@ -60,7 +79,7 @@ static double step_value(const struct bayesopt *bo, const struct search *search,
 bayesopt_status search_candidates(struct bayesopt *bo, const struct search *search, double *x,
                                   size_t *n)
 {
-    size_t d = bo->d, centres[CENTRES], count = pick_centres(bo, centres);
+    size_t d = bo->d, centres[CENTRES], count = pick_centres(bo, search->id, centres);
     bayesopt_design_options options;
     bayesopt_design_options_init(&options);
     options.seed = random_hash(bo->options.seed ^ random_hash(search->id));

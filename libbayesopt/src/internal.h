@@ -3,6 +3,7 @@
 #define BAYESOPT_INTERNAL_H
 
 #include "condition.h"
+#include "front.h"
 #include "random.h"
 #include "region.h"
 #include "surrogate.h"
@@ -47,7 +48,8 @@ struct progress {
 struct bayesopt {
     size_t d;
     double *lower, *upper;
-    bayesopt_options options; /* pointers in it refer to the copies below */
+    bayesopt_options options; /* pointers in it refer to the copies below; n_constraints counts the
+                                 other objectives too, which are the last outcomes */
     double *initial_x, *constraint_lower, *constraint_upper, *linear_a, *linear_b;
     size_t *group;       /* [d] or NULL */
     bayesopt_kind *kind; /* [d] */
@@ -58,7 +60,8 @@ struct bayesopt {
     double *first_x;     /* [n_first x d] or NULL */
     struct conditions conditions;
 
-    struct region region;     /* linear and callback constraints on [0,1]^d */
+    struct region region; /* linear and callback constraints on [0,1]^d */
+    bool maximise[FRONT_MOST_OBJECTIVES];
     double *constraint_x;     /* [d] scratch of the region's callback */
     bool constraints_missing; /* opened from a store without its callback */
 
@@ -104,6 +107,14 @@ void problem_spread(const struct bayesopt *bo, double *u);
 size_t problem_size(const struct bayesopt *bo);
 /* Point i of them, when there are no more than BAYESOPT_MOST_POINTS. */
 void problem_point(const struct bayesopt *bo, size_t i, double *u);
+
+/* pareto.c: the outcome (from 1, as models are numbered) that objective k is, 0 for the first; 1,
+ * or -1 for one to be maximised; objectives of a point, to be minimised. */
+size_t objective_model(const struct bayesopt *bo, size_t k);
+double objective_sign(const struct bayesopt *bo, size_t k);
+void objectives_of(const struct bayesopt *bo, const struct point *point, double *values);
+/* Rows of the Pareto set [n_points], in the order of asking; false: out of memory. */
+bool pareto_rows(const struct bayesopt *bo, size_t *n, size_t *rows);
 
 /* history.c */
 /* Of the level whose value is the objective's. */

@@ -85,6 +85,12 @@ bayesopt_status bayesopt_best(bayesopt *bo, double *x, double *f, uint64_t *id)
 
 bayesopt_status bayesopt_predict(bayesopt *bo, size_t n, const double *x, double *mean, double *sd)
 {
+    return bayesopt_predict_outcome(bo, 0, n, x, mean, sd);
+}
+
+bayesopt_status bayesopt_predict_outcome(bayesopt *bo, size_t k, size_t n, const double *x,
+                                         double *mean, double *sd)
+{
     NEED(bo);
     NEED(x);
     NEED(mean);
@@ -95,15 +101,19 @@ bayesopt_status bayesopt_predict(bayesopt *bo, size_t n, const double *x, double
     double *u = malloc((n ? n : 1) * (bo->d + 1) * sizeof *u);
     if (!status && !u)
         status = bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
-    const bayesopt_gp *gp = bo->surrogates.gps[0];
-    double *var = status ? NULL : u + n * bo->d;
+    if (!status && k > bo->options.n_constraints)
+        status = bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "outcome %zu of %zu", k,
+                               bo->options.n_constraints);
+    const bayesopt_gp *gp = status ? NULL : bo->surrogates.gps[k];
+    double *var = status ? NULL : u + n * bo->d, sign = k ? 1 : problem_sign(bo);
     for (size_t i = 0; i < n && !status; i++)
         problem_to_unit(bo, x + i * bo->d, u + i * bo->d);
     if (!status)
-        status = surrogates_predict(bo, n, u, mean, var);
+        status =
+            k ? bayesopt_gp_predict(gp, n, u, mean, var) : surrogates_predict(bo, n, u, mean, var);
     for (size_t i = 0; i < n && !status; i++) {
         double half = sqrt(var[i]), centre = mean[i];
-        mean[i] = problem_sign(bo) * bayesopt_gp_from_model(gp, centre);
+        mean[i] = sign * bayesopt_gp_from_model(gp, centre);
         if (sd)
             sd[i] = 0.5 * (bayesopt_gp_from_model(gp, centre + half) -
                            bayesopt_gp_from_model(gp, centre - half));

@@ -1,5 +1,6 @@
 /* Options of an optimisation: names, defaults, checks. */
 #include "error.h"
+#include "front.h"
 #include "internal.h"
 
 #include <math.h>
@@ -47,6 +48,7 @@ void bayesopt_options_init(bayesopt_options *options)
         .acquisition = BAYESOPT_ACQUISITION_EI,
         .lcb_factor = 2,
         .n_levels = 1,
+        .n_objectives = 1,
         .level_cost_ratio = 0.1,
     };
 }
@@ -137,6 +139,16 @@ bayesopt_status options_check(size_t d, const double *lower, const double *upper
         status = check_sizes(o);
     if (status)
         return status;
+    if (o->n_objectives < 1 || o->n_objectives > FRONT_MOST_OBJECTIVES)
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "%zu objectives, expected 1 to %d",
+                             o->n_objectives, FRONT_MOST_OBJECTIVES);
+    if (o->n_objectives > 1 &&
+        (o->n_levels > 1 || o->acquisition != BAYESOPT_ACQUISITION_EI || o->stop_no_improvement ||
+         o->stop_expected_improvement > 0 || o->strategy == BAYESOPT_STRATEGY_LOCAL))
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
+                             "%zu objectives are searched over the whole box, on one level, by "
+                             "expected improvement and to the end of the budget",
+                             o->n_objectives);
     if (o->initial_x && !o->initial_n)
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "initial_x without initial_n");
     for (size_t i = 0; o->initial_x && i < o->initial_n * d; i++)

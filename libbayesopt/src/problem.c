@@ -188,6 +188,11 @@ size_t bayesopt_constraint_count(const bayesopt *bo, double *lower, double *uppe
     return m;
 }
 
+size_t bayesopt_objective_count(const bayesopt *bo)
+{
+    return bo ? bo->options.n_objectives : 0;
+}
+
 size_t bayesopt_budget(const bayesopt *bo)
 {
     return bo ? problem_budget(bo) : 0;

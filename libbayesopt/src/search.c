@@ -1,8 +1,6 @@
-#include "search.h"
-
+#include "climber.h"
 #include "error.h"
 #include "label.h"
-#include "noisy.h"
 
 #include <math.h>
 #include <nlopt.h>
@@ -15,18 +13,6 @@ enum { ASCENT_EVALUATIONS = 60 };
 enum { SWEEPS = 8, MOST_CATEGORIES = 64 };
 /* Change of the acquisition, a logarithm, at which a climb ends. */
 static const double ascent_tolerance = 1e-5;
-
-struct climber {
-    struct bayesopt *bo;
-    const struct search *search;
-    bool improvement;    /* there is a feasible point to improve on */
-    double best;         /* its value in modelled units */
-    struct noisy *noisy; /* replaces best with noise and one level, else NULL */
-    double unit;         /* what the quadratic's values are measured in */
-    double *work, *dmean, *dvar;
-    double *constraint_lower, *constraint_upper; /* modelled units */
-    double *best_u, best_value;                  /* of the present ascent */
-};
 
 static bayesopt_status believe(bayesopt_gp *gp, const double *u)
 {
@@ -55,79 +41,6 @@ bayesopt_status search_believe_pending(struct bayesopt *bo)
             return status;
     }
     return BAYESOPT_OK;
-}
-
-/* Whether a pending point is believed to satisfy the outcome constraints. */
-static bool believed_feasible(const struct climber *c, const double *u)
-{
-    const struct surrogates *s = &c->bo->surrogates;
-    bool feasible = true;
-    for (size_t k = 0; k + 2 < s->count && feasible; k++) {
-        double mean;
-        feasible =
-            !s->gps[k + 1] || (!bayesopt_gp_predict(s->gps[k + 1], 1, u, &mean, NULL) &&
-                               mean >= c->constraint_lower[k] && mean <= c->constraint_upper[k]);
-    }
-    return feasible;
-}
-
-/* Modelled value to improve on: the best observation, or with noise the best posterior mean at an
- * observed point; and what pending points are believed to bring, since the same improvement is not
- * there a second time. */
-static bayesopt_status find_incumbent(struct climber *c)
-{
-    const struct bayesopt *bo = c->bo;
-    const bayesopt_gp *gp = bo->surrogates.gps[0];
-    bool noisy = bo->options.noise != BAYESOPT_NOISE_DETERMINISTIC;
-    c->best = INFINITY;
-    for (size_t i = 0; i < bo->n_points; i++) {
-        const struct point *p = &bo->points[i];
-        bool pending = p->state == BAYESOPT_STATE_PENDING && point_is_dear(bo, p);
-        double value;
-        if (pending ? !believed_feasible(c, p->u) : !point_feasible(bo, p))
-            continue;
-        if (noisy || pending) {
-            bayesopt_status status = surrogates_predict(bo, 1, p->u, &value, NULL);
-            if (status)
-                return status;
-        } else {
-            value = bayesopt_gp_to_model(gp, p->f);
-        }
-        c->best = fmin(c->best, value);
-    }
-    c->improvement = isfinite(c->best);
-    return BAYESOPT_OK;
-}
-
-/* With noise the expected improvement is one over what the values at the evaluated points may be.
- * Rows of the objective's data follow the history, then comes what was derived, and last what is
- * believed of pending points. */
-static bayesopt_status prepare_noisy(struct climber *c)
-{
-    const struct bayesopt *bo = c->bo;
-    const bayesopt_gp *gp = bo->surrogates.gps[0];
-    if (!c->improvement || c->search->goal != SEARCH_IMPROVEMENT ||
-        bo->options.acquisition != BAYESOPT_ACQUISITION_EI || bo->options.n_levels > 1 ||
-        bo->options.noise == BAYESOPT_NOISE_DETERMINISTIC)
-        return BAYESOPT_OK;
-    bayesopt_gp_info info;
-    bayesopt_status status = bayesopt_gp_get_info(gp, &info);
-    bool *eligible = calloc(info.n ? info.n : 1, sizeof *eligible);
-    size_t row = 0;
-    if (!eligible)
-        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
-    for (size_t i = 0; i < bo->n_points && row < info.n; i++)
-        if (bo->points[i].state == BAYESOPT_STATE_DONE)
-            eligible[row++] = point_feasible(bo, &bo->points[i]);
-    row = info.n;
-    for (size_t i = bo->n_points; i-- > 0 && row > 0;)
-        if (bo->points[i].state == BAYESOPT_STATE_PENDING)
-            eligible[--row] = believed_feasible(c, bo->points[i].u);
-    uint64_t seed = random_hash(bo->options.seed ^ random_hash(c->search->id + 1));
-    if (!status)
-        status = noisy_create(gp, eligible, seed, &c->noisy);
-    free(eligible);
-    return status;
 }
 
 /* Square of the distance to a pending point in units of what is kept. */
@@ -169,6 +82,28 @@ static double penalty(const struct climber *c, const double *u, double *gradient
     return sum;
 }
 
+/* Several objectives: the logarithm of the expected hypervolume improvement. */
+static double add_front(const struct climber *c, size_t stride, const double *mean,
+                        const double *var, double *by_mean, double *by_var)
+{
+    const struct bayesopt *bo = c->bo;
+    size_t m = bo->options.n_objectives;
+    double mu[FRONT_MOST_OBJECTIVES], sd[FRONT_MOST_OBJECTIVES], d_mu[FRONT_MOST_OBJECTIVES],
+        d_sd[FRONT_MOST_OBJECTIVES];
+    for (size_t k = 0; k < m; k++) {
+        size_t g = objective_model(bo, k);
+        mu[k] = (g ? objective_sign(bo, k) : 1) * mean[g * stride];
+        sd[k] = sqrt(fmax(var[g * stride], 1e-12));
+    }
+    double value = front_log_improvement(&c->front, mu, sd, d_mu, d_sd);
+    for (size_t k = 0; k < m && by_mean; k++) {
+        size_t g = objective_model(bo, k);
+        by_mean[g] += (g ? objective_sign(bo, k) : 1) * d_mu[k];
+        by_var[g] += d_sd[k] / (2 * sd[k]);
+    }
+    return value;
+}
+
 /* Acquisition from means and variances of all models; derivatives in them when wanted. */
 static double combine(const struct climber *c, size_t stride, const double *mean, const double *var,
                       double *by_mean, double *by_var)
@@ -188,6 +123,8 @@ static double combine(const struct climber *c, size_t stride, const double *mean
         } else if (c->search->goal != SEARCH_IMPROVEMENT && c->improvement) {
             value -= mean[0];
             dm = -1;
+        } else if (c->several) {
+            ; /* add_front() */
         } else if (c->noisy) {
             value += mean[0]; /* put there by follow_noisy() */
             dm = 1;
@@ -203,7 +140,8 @@ static double combine(const struct climber *c, size_t stride, const double *mean
             by_var[g] = ds / (2 * sd);
         }
     }
-    return value;
+    return c->several && c->improvement ? value + add_front(c, stride, mean, var, by_mean, by_var)
+                                        : value;
 }
 
 /* The quadratic in modelled units, in place of the regression: mean, and a variance of 0. */
@@ -504,7 +442,7 @@ static double quadratic_range(const struct search *search)
 static bool climber_create(struct climber *c, struct bayesopt *bo, const struct search *search)
 {
     size_t d = bo->d, count = bo->surrogates.count, m = bo->options.n_constraints;
-    *c = (struct climber){.bo = bo, .search = search};
+    *c = (struct climber){.bo = bo, .search = search, .several = bo->options.n_objectives > 1};
     size_t work = surrogates_work_size(bo);
     c->work = malloc((work + 2 * count * d + 2 * m + d) * sizeof *c->work);
     if (!c->work)
@@ -535,9 +473,11 @@ bayesopt_status search_run(struct bayesopt *bo, const struct search *search, dou
         return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
     }
     double *values = x + n * bo->d;
-    bayesopt_status status = find_incumbent(&c);
+    bayesopt_status status = climber_find_incumbent(&c);
     if (!status)
-        status = prepare_noisy(&c);
+        status = climber_prepare_noisy(&c);
+    if (!status)
+        status = climber_prepare_front(&c);
     if (!status)
         status = search_candidates(bo, search, x, &n);
     if (!status)
@@ -556,6 +496,7 @@ bayesopt_status search_run(struct bayesopt *bo, const struct search *search, dou
                                    bo->region.m);
     }
     noisy_free(c.noisy);
+    front_free(&c.front);
     free(c.work);
     free(x);
     return status;

@@ -12,7 +12,7 @@ struct field {
     size_t n;
     double *values;
 };
-enum { FIELDS = 24 };
+enum { FIELDS = 25 };
 
 static double *numbers(size_t n, const double *from)
 {
@@ -55,13 +55,15 @@ enum {
     GROUP,
     KIND,
     FIRST_X,
+    OBJECTIVES,
     STOPS
 };
 
 /* Stores of earlier versions know nothing of these; they have the default values. */
 static bool is_recent(size_t field)
 {
-    return field == MODEL || field == GROUP || field == KIND || field == FIRST_X;
+    return field == MODEL || field == GROUP || field == KIND || field == FIRST_X ||
+           field == OBJECTIVES;
 }
 
 static bool problem_fields(const struct bayesopt *bo, struct field *f)
@@ -75,6 +77,7 @@ static bool problem_fields(const struct bayesopt *bo, struct field *f)
     double model[4] = {o->mean, o->choice, o->acquisition, o->lcb_factor}, *group = NULL;
     double kind_head[2] = {o->maximise, o->told_count},
            *kinds = malloc((bo->d + 2) * sizeof *kinds);
+    double objectives[3] = {(double)o->n_objectives, bo->maximise[1], bo->maximise[2]};
     split_seed(o->seed, seed);
     if (!kinds || (bo->group && !(group = malloc(bo->d * sizeof *group)))) {
         free(kinds);
@@ -114,6 +117,7 @@ static bool problem_fields(const struct bayesopt *bo, struct field *f)
         /* Whether the objective is maximised and told points count, then the kinds. */
         [KIND] = {"kinds", bo->d + 2, kinds},
         [FIRST_X] = {"first_x", o->n_first * bo->d, bo->first_x},
+        [OBJECTIVES] = {"objectives", 3, objectives},
         [STOPS] = {"stops", 2, stops},
     };
     bool ok = true;
@@ -155,6 +159,8 @@ static bayesopt_status compare_field(struct store *store, const struct field *fi
     bool plain = strcmp(field->name, "first_x") != 0 || !field->n;
     for (size_t i = 0; i < field->n && strcmp(field->name, "kinds") == 0; i++)
         plain = plain && field->values[i] == 0;
+    if (strcmp(field->name, "objectives") == 0)
+        plain = field->values[0] == 1;
     if (!status && !values && recent && plain)
         return BAYESOPT_OK;
     if (!status && (!values || n != field->n))
@@ -225,7 +231,10 @@ static bayesopt_status create_from_fields(const struct field *f, const struct na
     o.initial_kind = (bayesopt_design_kind)first(&f[INITIAL_KIND]);
     o.initial_n = (size_t)first(&f[INITIAL_N]);
     o.initial_x = f[INITIAL_X].n ? f[INITIAL_X].values : NULL;
-    o.n_constraints = f[CONSTRAINT_LOWER].n;
+    bool others[2] = {f[OBJECTIVES].values[1] != 0, f[OBJECTIVES].values[2] != 0};
+    o.n_objectives = (size_t)first(&f[OBJECTIVES]);
+    o.maximise_others = others;
+    o.n_constraints = f[CONSTRAINT_LOWER].n - (o.n_objectives - 1);
     o.constraint_lower = f[CONSTRAINT_LOWER].values;
     o.constraint_upper = f[CONSTRAINT_UPPER].values;
     o.n_linear = f[LINEAR_B].n;
@@ -277,7 +286,9 @@ static bayesopt_status check_lengths(const struct store *store, const struct fie
         if (!f[i].values || (!is_array(i) && f[i].n != expected[i]))
             return bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: entry '%s' is damaged", store->path,
                                  f[i].name);
-    if (!d || f[BOX_UPPER].n != d || f[CONSTRAINT_UPPER].n != m ||
+    double objectives = first(&f[OBJECTIVES]);
+    if (!(objectives >= 1 && objectives <= FRONT_MOST_OBJECTIVES) || (double)m + 1 < objectives ||
+        !d || f[BOX_UPPER].n != d || f[CONSTRAINT_UPPER].n != m ||
         f[LINEAR_A].n != f[LINEAR_B].n * d || (f[KIND].n != d + 2 && f[KIND].n != 3) ||
         f[FIRST_X].n % d || (f[GROUP].n && f[GROUP].n != d) ||
         (initial && (double)initial != first(&f[INITIAL_N]) * (double)d))

@@ -298,7 +298,9 @@ static size_t count_pending(const struct bayesopt *bo, bayesopt_phase phase, bay
 static bayesopt_phase next_phase(const struct bayesopt *bo, uint64_t id, const struct trust *t)
 {
     bayesopt_strategy strategy = bo->options.strategy;
-    if (t->centre == SIZE_MAX || strategy == BAYESOPT_STRATEGY_GLOBAL)
+    /* With several objectives there is no one best point to stay near. */
+    if (t->centre == SIZE_MAX || strategy == BAYESOPT_STRATEGY_GLOBAL ||
+        bo->options.n_objectives > 1)
         return BAYESOPT_PHASE_GLOBAL;
     if (strategy == BAYESOPT_STRATEGY_LOCAL)
         return BAYESOPT_PHASE_LOCAL;

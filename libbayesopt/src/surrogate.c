@@ -182,7 +182,10 @@ static void model_options(const struct bayesopt *bo, size_t which, bayesopt_gp_o
     o->group = bo->group;
     o->choice = bo->options.choice;
     o->categorical = bo->categorical;
-    if (which == 0 || which == bo->surrogates.count) {
+    bool objective = which == 0;
+    for (size_t k = 1; k < bo->options.n_objectives; k++)
+        objective = objective || which == objective_model(bo, k);
+    if (objective || which == bo->surrogates.count) {
         o->noise = bo->options.noise;
         o->mean = bo->options.mean;
         /* Two levels are added up, in units of the objective. */

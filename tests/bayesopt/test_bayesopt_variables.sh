@@ -87,4 +87,30 @@ expect 1 "$tool" run bad.yaml
 says "at 'pich <= 6': expected a variable's name"
 [ ! -e bad.db ] || fail "a store was made of a file with mistakes"
 
+# Two objectives under a constraint, one failing corner: the Pareto set.
+cat >two.yaml <<'YAML'
+variables: [{name: a, lower: 0, upper: 1}, {name: b, lower: 0, upper: 1}]
+objective:
+  command: >-
+    awk 'BEGIN {{ a = {a}; b = {b}; if (a + b > 1.8) exit 1; print "cost =", (a - 0.2)^2 + (b - 0.2)^2;
+    print "gain =", 1 - (a - 0.8)^2 - (b - 0.8)^2; print "wide =", a }'
+objectives: [{name: cost}, {name: gain, maximise: true}]
+constraints: [{name: wide, upper: 0.6}]
+search: {evaluations: 26, initial: 10}
+YAML
+expect 0 "$tool" run two.yaml
+says 'in the Pareto set'
+[ "$(head -n 1 out)" = id,a,b,f,wide,gain ] || fail "front: $(cat out)"
+[ "$(wc -l <out)" -gt 7 ] || fail "a front of $(wc -l <out) lines"
+awk -F, 'NR > 2 { exit !($4 > f && $6 > g && $5 <= 0.6) } { f = $4; g = $6 }' out || fail "no front: $(cat out)"
+expect 0 "$tool" best two.db --json
+holds '"front": \['
+expect 0 "$tool" plot two.db --front -o front.svg
+expect 1 "$tool" plot screw.db --front -o front.svg
+sed 's/, maximise: true//' two.yaml >other.yaml
+expect 1 "$tool" run other.yaml --store two.db
+says "another"
+expect 0 "$tool" ask hand.db --config two.yaml
+expect 0 "$tool" tell hand.db 1 0.5 --constraints 0.4,0.7
+
 finish

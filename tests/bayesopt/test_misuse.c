@@ -148,6 +148,18 @@ static void looking(void)
     REFUSED(bayesopt_predict(bo, 1, NULL, &mean, &sd));
     REFUSED(bayesopt_predict(bo, 1, x, NULL, &sd));
     REFUSED(bayesopt_predict(bo, HUGE_COUNT, x, &mean, &sd));
+    size_t front;
+    CU_ASSERT(bayesopt_objective_count(NULL) == 0);
+    REFUSED(bayesopt_pareto(NULL, &front, NULL));
+    REFUSED(bayesopt_pareto(bo, NULL, NULL));
+    REFUSED(bayesopt_hypervolume(0, 1, x, x, &mean));
+    REFUSED(bayesopt_hypervolume(9, 1, x, x, &mean));
+    REFUSED(bayesopt_hypervolume(2, 1, NULL, x, &mean));
+    REFUSED(bayesopt_hypervolume(2, 1, x, NULL, &mean));
+    REFUSED(bayesopt_hypervolume(2, 1, x, x, NULL));
+    REFUSED(bayesopt_hypervolume(2, HUGE_COUNT, x, x, &mean));
+    REFUSED(bayesopt_predict_outcome(NULL, 0, 1, x, &mean, &sd));
+    REFUSED(bayesopt_predict_outcome(bo, 1, 1, x, &mean, &sd));
     REFUSED(bayesopt_model(NULL, &info, NULL));
     REFUSED(bayesopt_model(bo, NULL, NULL));
     REFUSED(bayesopt_minimise(NULL, objective, NULL, NULL, NULL));

@@ -23,4 +23,9 @@ int command_plot(int argc, char **argv);
 int command_design(int argc, char **argv);
 int command_export(int argc, char **argv);
 
+struct names;
+typedef struct bayesopt bayesopt;
+/* The Pareto set of a store with several objectives, as CSV or JSON; false after a sentence. */
+bool print_front(bayesopt *bo, const struct names *names, bool json);
+
 #endif

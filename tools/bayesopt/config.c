@@ -2,7 +2,6 @@
 
 #include "cli.h"
 #include "csv.h"
-#include "template.h"
 
 #include <errno.h>
 #include <math.h>
@@ -183,6 +182,22 @@ static void check_constraint(struct settings_source *source, void *target)
 static const struct settings CONSTRAINT = {COUNT(CONSTRAINT_ROWS), CONSTRAINT_ROWS,
                                            .check = check_constraint};
 
+static const struct setting OBJECTIVE_ROWS[] = {
+    ROW(config_objective, "name", TEXT, name, .required = true, .sentence = "in the output"),
+    ROW(config_objective, "maximise", SWITCH, maximise, .otherwise = "false",
+        .sentence = "whether the greatest is sought, not the least"),
+    ROW(config_objective, "output", COUNT, output, .words = NEXT, .otherwise = "next",
+        .sentence = "which of the outputs of a model it is"),
+};
+
+static void check_one_objective(struct settings_source *source, void *target)
+{
+    check_name(source, ((const struct config_objective *)target)->name);
+}
+
+static const struct settings OBJECTIVE = {COUNT(OBJECTIVE_ROWS), OBJECTIVE_ROWS,
+                                          .check = check_one_objective};
+
 static const struct setting ROWS[] = {
     {.option = "CONFIG.yaml",
      .type = SETTING_TEXT,
@@ -256,6 +271,11 @@ static const struct setting ROWS[] = {
         .count = offsetof(struct config, n_constraints), .table = &CONSTRAINT,
         .size = sizeof(struct config_constraint),
         .sentence = "list of {name, lower, upper} on numbers after a name in the output"),
+    ROW(config, "objectives", ROWS, objectives, .n_least = 2, .n_most = MOST_OBJECTIVES,
+        .count = offsetof(struct config, n_objectives), .table = &OBJECTIVE,
+        .size = sizeof(struct config_objective),
+        .sentence = "several at once, in place of objective.key: list of {name, maximise}; their "
+                    "Pareto set is sought"),
     ROW(config, "levels.cheap", TEXT, cheap,
         .sentence = "command of a cheaper, coarser evaluation"),
     ROW(config, "levels.cost", NUMBER, options.level_cost_ratio, .most = 1, .open_least = true,
@@ -297,140 +317,7 @@ static const struct setting ROWS[] = {
         .most = INFINITY, .words = NEVER, .sentence = "stop when less is expected, in units of f"),
 };
 
-/* Every {word} of a text must be a variable. */
-static void check_fields(struct settings_source *source, const char *key, const char *text,
-                         size_t length, const struct names *names)
-{
-    size_t field;
-    const char *at = text ? template_unknown(text, length, names, &field) : NULL;
-    if (at)
-        settings_complain(source, key, "has '%.*s', which is no variable; '{{' stands for a brace",
-                          (int)field, at);
-}
-
-static void check_templates(struct settings_source *source, const struct config *c,
-                            const struct names *names)
-{
-    for (size_t i = 0; i < c->n_templates; i++) {
-        const char *path = c->templates[i], *slash = strrchr(path, '/');
-        const char *name = slash ? slash + 1 : path;
-        size_t length;
-        char *text = template_read(path, &length);
-        if (!text)
-            settings_complain(source, "objective.template", "is '%s': %s", path, strerror(errno));
-        check_fields(source, "objective.template", text, text ? length : 0, names);
-        if (c->file && strcmp(c->file, name) == 0)
-            settings_complain(source, "objective.file", "is '%s', which is a template's name",
-                              name);
-        if (strcmp(name, "stdout") == 0 || strcmp(name, "stderr") == 0)
-            settings_complain(source, "objective.template",
-                              "is called '%s', as the file of the output is", name);
-        free(text);
-    }
-}
-
-/* A model in place of a command: what goes with which. */
-static void check_model(struct settings_source *source, const struct config *c)
-{
-    const struct {
-        const char *key;
-        bool given;
-    } others[] = {{"objective.command", c->command},   {"objective.template", c->n_templates > 0},
-                  {"objective.file", c->file},         {"objective.key", c->key},
-                  {"objective.gradient", c->gradient}, {"levels.cheap", c->cheap},
-                  {"objective.model", c->model},       {"objective.config", c->model_config}};
-    for (size_t i = 0; i < COUNT(others); i++)
-        if (others[i].given && (i < 6) == (c->url != NULL))
-            settings_complain(source, others[i].key,
-                              c->url ? "is given beside objective.url"
-                                     : "is given without objective.url");
-    if (!c->url && !c->command && c->n_variables) /* the file is read */
-        settings_complain(source, "objective.command", "is missing, and so is objective.url");
-    if (c->url && !c->model)
-        settings_complain(source, "objective.model", "is missing");
-    json_t *json = c->model_config ? json_loads(c->model_config, 0, NULL) : NULL;
-    if (c->model_config && !json_is_object(json))
-        settings_complain(source, "objective.config", "is '%s', expected a JSON object",
-                          c->model_config);
-    json_decref(json);
-    double number;
-    for (size_t j = 0; j < c->n_variables && c->url; j++)
-        for (size_t i = 0; i < c->variables[j].n_labels; i++)
-            if (!cli_parse_double(c->variables[j].labels[i], &number))
-                settings_complain(source, "variables",
-                                  "has '%s' with the value '%s'; a model takes "
-                                  "numbers",
-                                  c->variables[j].name, c->variables[j].labels[i]);
-}
-
-/* What is run and how its results are read. */
-static void check_objective(struct settings_source *source, struct config *c)
-{
-    struct names names = {.d = c->n_variables,
-                          .variables = calloc(c->n_variables + 1, sizeof(char *))};
-    for (size_t j = 0; names.variables && j < c->n_variables; j++)
-        names.variables[j] = c->variables[j].name;
-    if (names.variables) {
-        check_fields(source, "objective.command", c->command, c->command ? strlen(c->command) : 0,
-                     &names);
-        check_fields(source, "levels.cheap", c->cheap, c->cheap ? strlen(c->cheap) : 0, &names);
-        check_templates(source, c, &names);
-    }
-    free(names.variables);
-    check_model(source, c);
-    /* Whatever lies outside of the fresh folder may be of another evaluation. */
-    if (c->file && (*c->file == '/' || strstr(c->file, "..")))
-        settings_complain(source, "objective.file",
-                          "is '%s', expected a name within the working folder", c->file);
-    for (size_t i = 0; i < c->n_transient_status; i++)
-        if (c->transient_status[i] != floor(c->transient_status[i]))
-            settings_complain(source, "objective.transient.status", "is %g, expected whole numbers",
-                              c->transient_status[i]);
-    char message[200];
-    if (c->compiled) /* by an earlier check: options replace what a file says */
-        regfree(&c->pattern);
-    int code = c->transient_pattern ? regcomp(&c->pattern, c->transient_pattern,
-                                              REG_EXTENDED | REG_NOSUB | REG_NEWLINE)
-                                    : 0;
-    c->compiled = c->transient_pattern && !code;
-    if (code) {
-        regerror(code, &c->pattern, message, sizeof message);
-        settings_complain(source, "objective.transient.pattern",
-                          "is '%s', which is no regular expression: %s", c->transient_pattern,
-                          message);
-        free(c->transient_pattern);
-        c->transient_pattern = NULL;
-    }
-}
-
-static void check(struct settings_source *source, void *target)
-{
-    struct config *c = target;
-    size_t grouped = 0;
-    check_objective(source, c);
-    for (size_t j = 0; j < c->n_variables; j++) {
-        grouped += c->variables[j].grouped;
-        for (size_t k = 0; k < j; k++)
-            if (strcmp(c->variables[j].name, c->variables[k].name) == 0)
-                settings_complain(source, "variables", "has two called '%s'", c->variables[j].name);
-        for (size_t k = 0; k < c->n_constraints; k++)
-            if (strcmp(c->variables[j].name, c->constraints[k].name) == 0)
-                settings_complain(source, "constraints", "has one called '%s', as a variable is",
-                                  c->variables[j].name);
-    }
-    for (size_t j = 0; j < c->n_constraints; j++)
-        for (size_t k = 0; k < j; k++)
-            if (strcmp(c->constraints[j].name, c->constraints[k].name) == 0)
-                settings_complain(source, "constraints", "has two called '%s'",
-                                  c->constraints[j].name);
-    if (grouped && grouped < c->n_variables)
-        settings_complain(source, "variables", "has a group for %zu of %zu, expected all", grouped,
-                          c->n_variables);
-    if (!grouped && c->n_variables && c->options.scales == BAYESOPT_SCALES_TIED)
-        settings_complain(source, "search.scales", "is 'tied', but the variables have no group");
-}
-
-const struct settings CONFIG = {COUNT(ROWS), ROWS, .check = check};
+const struct settings CONFIG = {COUNT(ROWS), ROWS, .check = config_check};
 
 void config_start(struct config *c)
 {
@@ -486,7 +373,8 @@ static bool read_first(struct config *c)
 /* The library's options from what was read. */
 static bool complete(struct config *c)
 {
-    size_t d = c->n_variables, m = c->n_constraints;
+    size_t d = c->n_variables, others = c->n_objectives ? c->n_objectives - 1 : 0;
+    size_t m = c->n_constraints + others;
     c->names = (struct names){d, m, calloc(d, sizeof(char *)), calloc(m + 1, sizeof(char *)),
                               calloc(d, sizeof(struct labels))};
     c->kind = calloc(d, sizeof *c->kind);
@@ -505,7 +393,13 @@ static bool complete(struct config *c)
         c->kind[j] = KIND_OF[v->kind];
         c->group[j] = v->group;
     }
-    for (size_t k = 0; k < m; k++) {
+    for (size_t k = 0; k < others; k++) { /* outcomes without bounds */
+        c->names.constraints[c->n_constraints + k] = c->objectives[k + 1].name;
+        c->bounds[2 * d + c->n_constraints + k] = -INFINITY;
+        c->bounds[2 * d + m + c->n_constraints + k] = INFINITY;
+        c->maximise_others[k] = c->objectives[k + 1].maximise;
+    }
+    for (size_t k = 0; k < c->n_constraints; k++) {
         c->names.constraints[k] = c->constraints[k].name;
         c->bounds[2 * d + k] = c->constraints[k].lower;
         c->bounds[2 * d + m + k] = c->constraints[k].upper;
@@ -513,7 +407,14 @@ static bool complete(struct config *c)
     if (c->variables[0].grouped)
         c->options.scales = BAYESOPT_SCALES_TIED;
     c->options.group = c->group;
-    c->options.n_constraints = m;
+    if (c->n_objectives) {
+        c->options.n_objectives = c->n_objectives;
+        c->options.maximise = c->objectives[0].maximise;
+        c->options.maximise_others = c->maximise_others;
+        if (c->objectives[0].output)
+            c->output = c->objectives[0].output;
+    }
+    c->options.n_constraints = c->n_constraints;
     c->options.constraint_lower = c->bounds + 2 * d;
     c->options.constraint_upper = c->bounds + 2 * d + m;
     c->options.n_levels = c->cheap ? 2 : 1;
@@ -560,11 +461,19 @@ char *config_folder(const struct config *c)
     return beside(c, c->folder);
 }
 
+const char *config_key(const struct config *c)
+{
+    return c->n_objectives ? c->objectives[0].name : c->key;
+}
+
 size_t config_output(const struct config *c, size_t k)
 {
     size_t output = c->output;
-    for (size_t i = 0; i <= k; i++)
-        output = c->constraints[i].output ? c->constraints[i].output : output + 1;
+    for (size_t i = 0; i <= k; i++) {
+        size_t given = i < c->n_constraints ? c->constraints[i].output
+                                            : c->objectives[i - c->n_constraints + 1].output;
+        output = given ? given : output + 1;
+    }
     return output;
 }
 

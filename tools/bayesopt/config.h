@@ -11,6 +11,7 @@
 #include <regex.h>
 #include <stdbool.h>
 
+enum { MOST_OBJECTIVES = 3 };
 enum { MOST_TEMPLATES = 16, MOST_LABELS = 100, MOST_CONDITIONS = 100 };
 
 /* As the file calls it. */
@@ -38,12 +39,22 @@ struct config_constraint {
     size_t output; /* of a model, from 1; 0: the next one */
 };
 
+/* Of several. */
+struct config_objective {
+    char *name;
+    bool maximise;
+    size_t output; /* of a model, from 1; 0: the next one */
+};
+
 struct config {
     char *path, *store, *store_given; /* the file; its store and that of the command line */
     struct config_variable *variables;
     size_t n_variables;
     struct config_constraint *constraints;
     size_t n_constraints;
+    struct config_objective *objectives; /* when there are several */
+    size_t n_objectives;
+    bool maximise_others[MOST_OBJECTIVES];
     char *command, *key, *gradient, *file, *folder, *cheap;
     char *url, *model, *model_config; /* in place of a command */
     size_t output;                    /* of the model, from 1 */
@@ -73,6 +84,8 @@ struct config {
 };
 
 extern const struct settings CONFIG;
+/* config_check.c: the check of that table. */
+void config_check(struct settings_source *source, void *target);
 
 /* config_start() first, config_free() in any case. Reading prints the sentences with line and field
  * on failure, all at once. */
@@ -83,6 +96,8 @@ void config_free(struct config *config);
 char *config_store(const struct config *config);
 /* Where the working folders are; the caller frees. NULL: out of memory. */
 char *config_folder(const struct config *config);
+/* What stands before the objective's number in the output; NULL: nothing. */
+const char *config_key(const struct config *config);
 /* Output of a model that constraint k is, from 1. */
 size_t config_output(const struct config *config, size_t k);
 /* Whether the file tells transient failures from permanent ones. */

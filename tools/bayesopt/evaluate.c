@@ -233,8 +233,9 @@ static void read_numbers(const struct config *c, const struct evaluation *e, con
     if (!ok)
         snprintf(o->reason, sizeof o->reason, "%s: %s", c->file ? c->file : "stdout",
                  strerror(errno));
-    ok = ok && (c->key ? result_find(text, c->key, c->match, 1, &o->f, o->reason, sizeof o->reason)
-                       : result_last(text, &o->f, o->reason, sizeof o->reason));
+    ok = ok && (config_key(c) ? result_find(text, config_key(c), c->match, 1, &o->f, o->reason,
+                                            sizeof o->reason)
+                              : result_last(text, &o->f, o->reason, sizeof o->reason));
     for (size_t k = 0; k < c->names.m && ok; k++)
         ok = result_find(text, c->names.constraints[k], c->match, 1, &o->constraints[k], o->reason,
                          sizeof o->reason);

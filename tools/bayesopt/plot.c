@@ -17,6 +17,7 @@ static const char help[] =
     "best point. FILE ends in .svg, .png or .pdf.\n"
     "\n"
     "  -o, --output FILE the picture\n"
+    "  --front           values of several objectives against each other, the Pareto set marked\n"
     "  --slices          slices of the model instead of the history (the first 16 variables)\n"
     "  --threads N       accepted; one thread is used\n"
     "  --help\n"
@@ -147,25 +148,90 @@ static bool draw_slices(struct plot *plot, bayesopt *bo, const struct names *nam
     return good;
 }
 
-enum { SLICES = 1000, THREADS, HELP };
+/* Where the trials lie in the plane of two objectives; 0 is f, k > 0 an outcome. */
+static double objective_value(const bayesopt_point *p, size_t k)
+{
+    return k ? p->constraints[k - 1] : p->f;
+}
+
+static void draw_plane(struct plot *plot, const bayesopt *bo, const size_t *rows, size_t n,
+                       struct plot_frame *f, size_t a, size_t b)
+{
+    bayesopt_point p;
+    f->x.low = f->y.low = INFINITY;
+    f->x.high = f->y.high = -INFINITY;
+    for (size_t i = 0; !bayesopt_get(bo, i, &p); i++) {
+        double x = p.state == BAYESOPT_STATE_DONE ? objective_value(&p, a) : (double)NAN;
+        double y = p.state == BAYESOPT_STATE_DONE ? objective_value(&p, b) : (double)NAN;
+        plot_include(&f->x, 1, &x);
+        plot_include(&f->y, 1, &y);
+    }
+    plot_nice(&f->x, 5);
+    plot_nice(&f->y, 5);
+    plot_axes(plot, f);
+    for (size_t i = 0; !bayesopt_get(bo, i, &p); i++)
+        if (p.state == BAYESOPT_STATE_DONE && !p.outside)
+            plot_mark(plot, plot_x(f, objective_value(&p, a)), plot_y(f, objective_value(&p, b)),
+                      p.feasible ? PLOT_DOT : PLOT_RING, 2.6, PLOT_PALE, "");
+    for (size_t i = 0; i < n && !bayesopt_get(bo, rows[i], &p); i++) {
+        char note[40];
+        snprintf(note, sizeof note, "%llu", (unsigned long long)p.id);
+        plot_mark(plot, plot_x(f, objective_value(&p, a)), plot_y(f, objective_value(&p, b)),
+                  PLOT_DOT, 3.4, PLOT_OPTIMUM, note);
+    }
+}
+
+static bool draw_front(struct plot *plot, const bayesopt *bo, const struct names *names)
+{
+    static const struct plot_legend legend[] = {
+        {"Pareto set", {PLOT_OPTIMUM, 0, NULL}, PLOT_DOT},
+        {"evaluated", {PLOT_PALE, 0, NULL}, PLOT_DOT},
+        {"outside the limits", {PLOT_PALE, 0, NULL}, PLOT_RING}};
+    size_t objectives = bayesopt_objective_count(bo), n, first = names->m + 2 - objectives;
+    if (objectives < 2)
+        return cli_refuse("--front: there is one objective");
+    size_t *rows = malloc((bayesopt_count(bo) + 1) * sizeof *rows), panel = 0;
+    size_t panels = objectives == 2 ? 1 : 3;
+    bool good = rows || cli_refuse("out of memory");
+    good = good && (!bayesopt_pareto(bo, &n, rows) || cli_refuse("%s", bayesopt_last_error()));
+    good = good && plot_open(plot, WIDTH, panels == 1 ? 620 : HEIGHT, "Pareto set");
+    if (good)
+        plot_legend(plot, 60, 18, false, 3, legend);
+    for (size_t a = 0; a < objectives && good; a++)
+        for (size_t b = a + 1; b < objectives; b++, panel++) {
+            double width = (double)WIDTH / (double)panels;
+            struct plot_frame f = {.left = width * (double)panel + 70,
+                                   .top = 40,
+                                   .width = width - 90,
+                                   .height = plot->height - 96};
+            size_t ka = a ? first + a - 1 : 0, kb = first + b - 1;
+            f.x.label = ka ? names->constraints[ka - 1] : "f";
+            f.y.label = names->constraints[kb - 1];
+            draw_plane(plot, bo, rows, n, &f, ka, kb);
+        }
+    free(rows);
+    return good;
+}
+
+enum { SLICES = 1000, FRONT, THREADS, HELP };
 
 int command_plot(int argc, char **argv)
 {
     static const struct option options[] = {
-        {"output", required_argument, NULL, 'o'},
-        {"slices", no_argument, NULL, SLICES},
-        {"threads", required_argument, NULL, THREADS},
-        {"help", no_argument, NULL, HELP},
-        {NULL, 0, NULL, 0},
+        {"output", required_argument, NULL, 'o'}, {"slices", no_argument, NULL, SLICES},
+        {"front", no_argument, NULL, FRONT},      {"threads", required_argument, NULL, THREADS},
+        {"help", no_argument, NULL, HELP},        {NULL, 0, NULL, 0},
     };
     const char *output = NULL;
-    bool slices = false;
+    bool slices = false, front = false;
     int option;
     while ((option = getopt_long(argc, argv, "o:", options, NULL)) != -1) {
         if (option == 'o')
             output = optarg;
         else if (option == SLICES)
             slices = true;
+        else if (option == FRONT)
+            front = true;
         else if (option == HELP)
             return cli_print(help);
         else if (option != THREADS)
@@ -181,7 +247,10 @@ int command_plot(int argc, char **argv)
         return CLI_FAILED;
     struct plot sheet;
     bool good = bayesopt_count(bo) > 0 || cli_refuse("%s: nothing to plot yet", argv[optind]);
-    good = good && (slices ? draw_slices(&sheet, bo, &names) : draw_history(&sheet, bo)) &&
+    good = good &&
+           (front    ? draw_front(&sheet, bo, &names)
+            : slices ? draw_slices(&sheet, bo, &names)
+                     : draw_history(&sheet, bo)) &&
            plot_save(&sheet, output);
     names_free(&names);
     bayesopt_free(bo);

@@ -56,12 +56,53 @@ static json_t *row_json(const struct names *names, const bayesopt_point *p)
                      "feasible", p->feasible, "note", p->note, "attributes", attributes);
 }
 
+bool print_front(bayesopt *bo, const struct names *names, bool json)
+{
+    bayesopt_point p;
+    size_t n, *rows = malloc((bayesopt_count(bo) + 1) * sizeof *rows);
+    if (!rows || bayesopt_pareto(bo, &n, rows)) {
+        free(rows);
+        return cli_refuse("%s", rows ? bayesopt_last_error() : "out of memory");
+    }
+    json_t *list = json ? json_array() : NULL;
+    if (!json) {
+        printf("id");
+        for (size_t j = 0; j < names->d; j++)
+            printf(",%s", names->variables[j]);
+        printf(",f");
+        for (size_t k = 0; k < names->m; k++)
+            printf(",%s", names->constraints[k]);
+        putchar('\n');
+    }
+    for (size_t i = 0; i < n && !bayesopt_get(bo, rows[i], &p); i++) {
+        char buffer[VALUE_SIZE];
+        if (json) {
+            json_result_append(list, row_json(names, &p));
+            continue;
+        }
+        printf("%llu", (unsigned long long)p.id);
+        for (size_t j = 0; j < names->d; j++)
+            printf(",%s", names_value(names, j, p.x[j], buffer));
+        printf(",%.17g", p.f);
+        for (size_t k = 0; k < names->m; k++)
+            printf(",%.17g", p.constraints[k]);
+        putchar('\n');
+    }
+    free(rows);
+    if (json)
+        print_json(stdout, json_pack("{s:I, s:o}", "evaluations", (json_int_t)bayesopt_count(bo),
+                                     "front", list));
+    return n > 0 || cli_refuse("no evaluation satisfies the outcome constraints");
+}
+
 static bool show_best(bayesopt *bo, const struct names *names, const struct arguments *a)
 {
     uint64_t id, lucky;
     double f, least;
     bayesopt_point point;
     char buffer[VALUE_SIZE];
+    if (bayesopt_objective_count(bo) > 1)
+        return print_front(bo, names, a->json);
     bayesopt_status status = bayesopt_best(bo, NULL, &f, &id);
     if (status < 0 || bayesopt_best_told(bo, NULL, &least, &lucky) < 0)
         return cli_refuse("%s", bayesopt_last_error());
@@ -100,7 +141,8 @@ int command_best(int argc, char **argv)
         "Prints the best point so far: the least value within the outcome constraints, or\n"
         "the least violation when none is within them; when the objective is maximised, the\n"
         "greatest. With noise it is the point of\n"
-        "least mean, and the least value told stands beside it.\n\n",
+        "least mean, and the least value told stands beside it. Of several objectives it is the\n"
+        "Pareto set, as CSV.\n\n",
         false, show_best);
 }
 

@@ -70,8 +70,10 @@ static void log_standing(const struct runner *r, const char *what)
 {
     double f;
     uint64_t id;
-    size_t points = bayesopt_count(r->bo), budget = bayesopt_budget(r->bo);
-    if (bayesopt_best_told(r->bo, NULL, &f, &id) >= 0)
+    size_t points = bayesopt_count(r->bo), budget = bayesopt_budget(r->bo), front;
+    if (bayesopt_objective_count(r->bo) > 1 && !bayesopt_pareto(r->bo, &front, NULL))
+        log_line("%s: %zu of %zu points asked, %zu in the Pareto set", what, points, budget, front);
+    else if (bayesopt_best_told(r->bo, NULL, &f, &id) >= 0)
         log_line("%s: %zu of %zu points asked, best %.6g at point %llu", what, points, budget, f,
                  (unsigned long long)id);
     else
@@ -166,8 +168,9 @@ static bool runner_finish(struct runner *r, struct evaluation *slot, int status)
     double f;
     if (bayesopt_best_told(r->bo, NULL, &f, NULL) >= 0)
         snprintf(detail, sizeof detail, "best %.6g", f);
-    cli_progress_update(&r->progress,
-                        (double)bayesopt_count(r->bo) / (double)bayesopt_budget(r->bo), detail);
+    if (r->progress.is_terminal) /* else log_standing() */
+        cli_progress_update(&r->progress,
+                            (double)bayesopt_count(r->bo) / (double)bayesopt_budget(r->bo), detail);
     return true;
 }
 
@@ -250,6 +253,8 @@ static bool refuse_without_success(const bayesopt *bo)
 static bool report(const struct runner *r)
 {
     const struct names *names = &r->config.names;
+    if (bayesopt_objective_count(r->bo) > 1 && bayesopt_best_told(r->bo, NULL, NULL, NULL) >= 0)
+        return print_front(r->bo, names, r->config.json);
     double f = NAN, *x = malloc(names->d * sizeof *x);
     uint64_t id = 0;
     char buffer[VALUE_SIZE];

@@ -51,7 +51,7 @@ static bool keep_model(const struct config *c, bayesopt *bo)
 {
     char outputs[32 + 12 * 1000];
     int used = snprintf(outputs, sizeof outputs, "%zu", c->output);
-    for (size_t k = 0; k < c->n_constraints && used < (int)sizeof outputs - 24; k++)
+    for (size_t k = 0; k < c->names.m && used < (int)sizeof outputs - 24; k++)
         used +=
             snprintf(outputs + used, sizeof outputs - (size_t)used, ",%zu", config_output(c, k));
     return !c->url || (store_keep(bo, "objective.model", c->model) &&
@@ -64,7 +64,7 @@ static bool keep_objective(const struct config *c, bayesopt *bo)
 {
     return names_keep(bo, &c->names) &&
            store_keep(bo, "objective.command", c->command ? c->command : "") && keep_model(c, bo) &&
-           store_keep(bo, "objective.key", c->key ? c->key : "") &&
+           store_keep(bo, "objective.key", config_key(c) ? config_key(c) : "") &&
            store_keep(bo, "objective.file", c->file ? c->file : "") &&
            store_keep(bo, "levels.cheap", c->cheap ? c->cheap : "") && keep_templates(c, bo);
 }
@@ -116,6 +116,10 @@ static bool is_same_study(const struct config *c, const char *store)
              cli_refuse("%s is of another study: variable '%s' is %s there, %s here", store,
                         c->names.variables[j], bayesopt_kind_name(bayesopt_variable_kind(bo, j)),
                         bayesopt_kind_name(c->kind[j]));
+    size_t objectives = c->n_objectives ? c->n_objectives : 1;
+    if (ok && bayesopt_objective_count(bo) != objectives)
+        ok = cli_refuse("%s is of another study: it has %zu objectives, here are %zu", store,
+                        bayesopt_objective_count(bo), objectives);
     if (ok && bayesopt_maximises(bo) != c->options.maximise)
         ok = cli_refuse("%s is of another study: its objective is %s", store,
                         bayesopt_maximises(bo) ? "maximised" : "minimised");

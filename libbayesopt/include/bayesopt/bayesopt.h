@@ -151,9 +151,15 @@ typedef struct bayesopt_options {
     size_t n_first;                /**< points to be evaluated first; default 0 */
     const double *first_x; /**< [n_first x d]; they take the first places of the initial design,
                                 whose others keep away from them */
-    bool told_count;    /**< points told before the first ask take places of the initial design too,
-                             whose others keep away from them; one level; default false */
-    double reserved[8]; /**< 0: room for members of later releases */
+    bool told_count; /**< points told before the first ask take places of the initial design too,
+                          whose others keep away from them; one level; default false */
+
+    size_t
+        n_objectives; /**< 1 to 3; default 1, which 0 means too. With more than one the Pareto set
+                         is sought by expected hypervolume improvement, and the others are told as
+                         the last n_objectives - 1 of the outcomes, behind the constraints */
+    const bool *maximise_others; /**< [n_objectives - 1] default NULL = all are minimised */
+    double reserved[6];          /**< 0: room for members of later releases */
 } bayesopt_options;
 
 /** Fills the defaults. */
@@ -270,8 +276,9 @@ BAYESOPT_API bayesopt_status bayesopt_set_ask_progress(bayesopt *bo, bayesopt_as
 
 /** All that may be known about one evaluation. */
 typedef struct bayesopt_result {
-    double f;                  /**< the objective; not finite = failed */
-    const double *constraints; /**< [n_constraints] borrowed; NULL if there are none */
+    double f; /**< the objective; not finite = failed */
+    const double
+        *constraints; /**< [n_constraints + n_objectives - 1] borrowed; NULL if there are none */
     const double
         *gradient;    /**< [d] df/dx borrowed; NULL if not known. The best 400/d points' are used */
     double variance;  /**< of f, with BAYESOPT_NOISE_KNOWN; else 0 */
@@ -289,8 +296,8 @@ typedef struct bayesopt_result {
 /**
  * The value at an asked point.
  * @param f            objective; a value that is not finite counts as a failed evaluation
- * @param constraints  [n_constraints] outcome constraints, NULL if there are none; a value that is
- * not finite makes the evaluation failed
+ * @param constraints  [n_constraints + n_objectives - 1] outcomes, NULL if there are none; a value
+ * that is not finite makes the evaluation failed
  * @return BAYESOPT_ERROR_ARGUMENT if the id is unknown or was told before
  */
 BAYESOPT_API bayesopt_status bayesopt_tell(bayesopt *bo, uint64_t id, double f,
@@ -376,7 +383,25 @@ BAYESOPT_API bayesopt_status bayesopt_refresh(bayesopt *bo);
 /** Number of variables; fills the bounds ([d] each, NULL allowed). */
 BAYESOPT_API size_t bayesopt_dimension(const bayesopt *bo, double *lower, double *upper);
 
-/** Number of outcome constraints; fills their bounds ([n] each, NULL allowed). */
+/** Number of objectives. */
+BAYESOPT_API size_t bayesopt_objective_count(const bayesopt *bo);
+
+/**
+ * The Pareto set of what was told: points within the outcome constraints of which none is better in
+ * one objective without being worse in another.
+ * @param n     filled with their number
+ * @param rows  [bayesopt_count()] filled with their rows in the history, by increasing first
+ * objective as it was told; NULL: only count
+ */
+BAYESOPT_API bayesopt_status bayesopt_pareto(const bayesopt *bo, size_t *n, size_t *rows);
+
+/** Volume that n points [n x m] of objectives to be minimised dominate below a reference point [m],
+ * 1 <= m <= 8; points that are not below it add nothing. By slices, O(n^(m-1)). */
+BAYESOPT_API bayesopt_status bayesopt_hypervolume(size_t m, size_t n, const double *points,
+                                                  const double *reference, double *volume);
+
+/** Number of outcomes told beside f: constraints, then, with bounds of -INFINITY and INFINITY, the
+ * other objectives. Fills their bounds ([n] each, NULL allowed). */
 BAYESOPT_API size_t bayesopt_constraint_count(const bayesopt *bo, double *lower, double *upper);
 
 /** Budget, size of the initial design, and seed. */
@@ -408,6 +433,10 @@ BAYESOPT_API bayesopt_status bayesopt_set_budget(bayesopt *bo, size_t max_evalua
  */
 BAYESOPT_API bayesopt_status bayesopt_predict(bayesopt *bo, size_t n, const double *x, double *mean,
                                               double *sd);
+
+/** The same of outcome k, counted from 1 in the order they are told in; k = 0 is the objective. */
+BAYESOPT_API bayesopt_status bayesopt_predict_outcome(bayesopt *bo, size_t k, size_t n,
+                                                      const double *x, double *mean, double *sd);
 
 /** What the current model is, for reports. */
 typedef struct bayesopt_model_info {
