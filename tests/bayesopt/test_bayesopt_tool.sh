@@ -7,7 +7,7 @@ expect 0 "$tool" --help
 expect 0 "$tool" --version
 expect 2 "$tool"
 expect 2 "$tool" nonsense
-for command in run ask tell release heartbeat best status plot design export predict; do
+for command in run ask tell release heartbeat best status plot report design export predict; do
     expect 0 "$tool" $command --help
     expect 2 "$tool" $command --nonsense
 done
@@ -45,6 +45,11 @@ expect 0 "$tool" export run.db --json
 expect 0 "$tool" plot run.db -o history.svg
 expect 0 "$tool" plot run.db --slices -o slices.svg
 grep -q '</svg>' history.svg && grep -q '</svg>' slices.svg || fail "pictures"
+for picture in contours loo parallel sensitivity; do
+    expect 0 "$tool" plot run.db --$picture -o $picture.svg
+    grep -q '</svg>' $picture.svg || fail "no picture of $picture"
+done
+expect 2 "$tool" plot run.db --loo --slices -o two.svg
 expect 0 "$tool" plot run.db --slices -o slices.pdf
 expect 2 "$tool" plot run.db -o history.txt
 

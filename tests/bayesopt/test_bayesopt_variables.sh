@@ -106,6 +106,13 @@ awk -F, 'NR > 2 { exit !($4 > f && $6 > g && $5 <= 0.6) } { f = $4; g = $6 }' ou
 expect 0 "$tool" best two.db --json
 holds '"front": \['
 expect 0 "$tool" plot two.db --front -o front.svg
+for study in screw two; do
+    expect 0 "$tool" report $study.db -o $study.html
+    grep -q 'viewport' $study.html && grep -q '@media print' $study.html || fail "neither phone nor paper"
+    grep -E -q '(src|href)=|url\(http' $study.html && fail "the page of $study needs more than itself"
+done
+[ "$(grep -c '</svg>' screw.html)" -eq 6 ] || fail "$(grep -c '</svg>' screw.html) pictures of screw"
+grep -q '<h2>Pareto set</h2>' two.html || fail "the page of two objectives"
 expect 1 "$tool" plot screw.db --front -o front.svg
 sed 's/, maximise: true//' two.yaml >other.yaml
 expect 1 "$tool" run other.yaml --store two.db

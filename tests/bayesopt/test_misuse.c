@@ -160,6 +160,16 @@ static void looking(void)
     REFUSED(bayesopt_hypervolume(2, HUGE_COUNT, x, x, &mean));
     REFUSED(bayesopt_predict_outcome(NULL, 0, 1, x, &mean, &sd));
     REFUSED(bayesopt_predict_outcome(bo, 1, 1, x, &mean, &sd));
+    REFUSED(bayesopt_sensitivity(NULL, 0, 64, x, x));
+    REFUSED(bayesopt_sensitivity(bo, 0, 64, NULL, x));
+    REFUSED(bayesopt_sensitivity(bo, 0, 64, x, NULL));
+    REFUSED(bayesopt_sensitivity(bo, 0, HUGE_COUNT, x, x));
+    REFUSED(bayesopt_sensitivity(bo, 1, 64, x, x));
+    REFUSED(bayesopt_leave_one_out(NULL, &front, x, x, x));
+    REFUSED(bayesopt_leave_one_out(bo, NULL, x, x, x));
+    REFUSED(bayesopt_leave_one_out(bo, &front, NULL, x, x));
+    REFUSED(bayesopt_leave_one_out(bo, &front, x, NULL, x));
+    REFUSED(bayesopt_leave_one_out(bo, &front, x, x, NULL));
     REFUSED(bayesopt_model(NULL, &info, NULL));
     REFUSED(bayesopt_model(bo, NULL, NULL));
     REFUSED(bayesopt_minimise(NULL, objective, NULL, NULL, NULL));

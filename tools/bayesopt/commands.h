@@ -20,6 +20,7 @@ int command_predict(int argc, char **argv);
 int command_best(int argc, char **argv);
 int command_status(int argc, char **argv);
 int command_plot(int argc, char **argv);
+int command_report(int argc, char **argv);
 int command_design(int argc, char **argv);
 int command_export(int argc, char **argv);
 

@@ -12,7 +12,8 @@ static const struct cli_command COMMANDS[] = {
     {"status", "STORE", "how far the run is, and its model", command_status},
     {"predict", "STORE", "what the model expects at points", command_predict},
     {"export", "STORE", "the history as CSV or JSON", command_export},
-    {"plot", "STORE", "history and slices of the model as a picture", command_plot},
+    {"plot", "STORE", "a picture of the history, the model or the Pareto set", command_plot},
+    {"report", "STORE", "the study as one page of HTML", command_report},
     {"design", "KIND N D", "a design of experiments", command_design},
 };
 

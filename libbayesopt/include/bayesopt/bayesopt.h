@@ -438,6 +438,28 @@ BAYESOPT_API bayesopt_status bayesopt_predict(bayesopt *bo, size_t n, const doub
 BAYESOPT_API bayesopt_status bayesopt_predict_outcome(bayesopt *bo, size_t k, size_t n,
                                                       const double *x, double *mean, double *sd);
 
+/**
+ * Sobol' indices of the model's mean over the box, every value of a variable equally likely (on a
+ * scale of logarithms where it has one): shares of the variance, to about 1/sqrt(n).
+ * @param k      outcome as in bayesopt_predict_outcome(), 0: the objective
+ * @param n      samples, 64 to 65536; 1024 is usual. n (d + 2) predictions
+ * @param first  [d] filled: the share that the variable explains alone
+ * @param total  [d] filled: the share that it has a part in
+ * @return BAYESOPT_ERROR_ARGUMENT, also with more than 500 variables
+ */
+BAYESOPT_API bayesopt_status bayesopt_sensitivity(bayesopt *bo, size_t k, size_t n, double *first,
+                                                  double *total);
+
+/**
+ * What the model of the objective, with its hyper-parameters kept, expects at each evaluated point
+ * from the others alone.
+ * @param n     filled: how many points; values told at one point count as one
+ * @param told  [bayesopt_count()] filled, in units of f; likewise the predicted median and half its
+ * central 68 % interval with noise
+ */
+BAYESOPT_API bayesopt_status bayesopt_leave_one_out(bayesopt *bo, size_t *n, double *told,
+                                                    double *mean, double *sd);
+
 /** What the current model is, for reports. */
 typedef struct bayesopt_model_info {
     size_t n;                     /**< evaluations it is fitted to */
