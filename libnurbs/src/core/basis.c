@@ -19,6 +19,8 @@ void nurbs_basis(int degree, const double *knots, size_t span, double u, double 
 void nurbs_basis_derivatives(int degree, const double *knots, size_t span, double u, int order,
                              double *values)
 {
+    if (!knots || !values)
+        return;
     if (degree == 3)
         evaluate(3, knots + span, u, order, values);
     else

@@ -39,6 +39,7 @@ nurbs_status nurbs_curve_create(int degree, size_t n, const double *knots, const
 
 nurbs_status nurbs_curve_copy(const nurbs_curve *curve, nurbs_curve **copy)
 {
+    NURBS_NEED(curve && copy);
     return nurbs_curve_create(curve->axis.degree, curve->axis.size, curve->axis.knots,
                               curve->points, curve->weights, copy);
 }
@@ -50,25 +51,25 @@ void nurbs_curve_free(nurbs_curve *curve)
 
 int nurbs_curve_degree(const nurbs_curve *curve)
 {
-    return curve->axis.degree;
+    return curve ? curve->axis.degree : 0;
 }
 
 size_t nurbs_curve_size(const nurbs_curve *curve)
 {
-    return curve->axis.size;
+    return curve ? curve->axis.size : 0;
 }
 
 const double *nurbs_curve_knots(const nurbs_curve *curve)
 {
-    return curve->axis.knots;
+    return curve ? curve->axis.knots : NULL;
 }
 
 const double *nurbs_curve_points(const nurbs_curve *curve)
 {
-    return curve->points;
+    return curve ? curve->points : NULL;
 }
 
 const double *nurbs_curve_weights(const nurbs_curve *curve)
 {
-    return curve->weights;
+    return curve ? curve->weights : NULL;
 }

@@ -8,6 +8,14 @@
 __attribute__((format(printf, 2, 3))) nurbs_status nurbs_fail(nurbs_status code, const char *format,
                                                               ...);
 
+/* The first line of a public function: what it must be given, as NURBS_NEED(curve && copy). */
+#define NURBS_NEED(pointers)                                                                       \
+    do {                                                                                           \
+        if (!(pointers))                                                                           \
+            return nurbs_fail(NURBS_ERROR_ARGUMENT, "%s: NULL given, expected %s", __func__,       \
+                              #pointers);                                                          \
+    } while (0)
+
 /* The last failure again, with the object that it concerns before its sentence: "where: sentence".
  */
 nurbs_status nurbs_fail_in(nurbs_status code, const char *where);

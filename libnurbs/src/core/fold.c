@@ -56,6 +56,7 @@ static size_t find_reversal(const size_t n[2], const double *normals)
 
 nurbs_status nurbs_surface_check_fold(const nurbs_surface *surface, double uv[2])
 {
+    NURBS_NEED(surface);
     size_t room[2] = {PER_SPAN * nurbs_surface_size(surface, 0),
                       PER_SPAN * nurbs_surface_size(surface, 1)};
     double *u = malloc((room[0] + room[1] + 12 * room[0] * room[1]) * sizeof *u);

@@ -16,6 +16,7 @@ struct nurbs_grid {
 
 nurbs_status nurbs_grid_create(size_t rows, size_t columns, const double *points, nurbs_grid **grid)
 {
+    NURBS_NEED(grid);
     *grid = NULL;
     if (rows < 2 || columns < 2)
         return nurbs_fail(NURBS_ERROR_ARGUMENT, "grid of %zu x %zu points, expected at least 2 x 2",
@@ -52,27 +53,28 @@ void nurbs_grid_free(nurbs_grid *grid)
 
 size_t nurbs_grid_rows(const nurbs_grid *grid)
 {
-    return grid->rows;
+    return grid ? grid->rows : 0;
 }
 
 size_t nurbs_grid_columns(const nurbs_grid *grid)
 {
-    return grid->columns;
+    return grid ? grid->columns : 0;
 }
 
 const double *nurbs_grid_points(const nurbs_grid *grid)
 {
-    return grid->points;
+    return grid ? grid->points : NULL;
 }
 
 double *nurbs_grid_edit(nurbs_grid *grid)
 {
-    return grid->points;
+    return grid ? grid->points : NULL;
 }
 
 nurbs_status nurbs_grid_sample(const nurbs_surface *surface, size_t rows, const double *u,
                                size_t columns, const double *v, nurbs_grid **grid)
 {
+    NURBS_NEED(surface && u && v && grid);
     nurbs_status status = nurbs_grid_create(rows, columns, NULL, grid);
     if (status != NURBS_OK)
         return status;
@@ -217,6 +219,7 @@ static nurbs_status assemble(const char *path, const entry *entries, size_t coun
 
 nurbs_status nurbs_grid_read(const char *path, nurbs_grid **grid)
 {
+    NURBS_NEED(path && grid);
     char *text;
     size_t length, count = 0;
     entry *entries = NULL;
@@ -242,6 +245,7 @@ nurbs_status nurbs_grid_read(const char *path, nurbs_grid **grid)
 
 nurbs_status nurbs_grid_write(const nurbs_grid *grid, const char *path)
 {
+    NURBS_NEED(grid && path);
     outfile file;
     nurbs_status status = outfile_open(&file, path);
     if (status != NURBS_OK)

@@ -58,6 +58,8 @@ nurbs_status nurbs_knots_check(int degree, size_t n, const double *knots)
 
 size_t nurbs_basis_span(int degree, size_t n, const double *knots, double u, size_t *hint)
 {
+    if (!knots)
+        return 0;
     size_t low = (size_t)degree, high = n; /* knots[low] <= u < knots[high] once clamped */
     if (!(u >= knots[low]))
         u = knots[low];
@@ -94,6 +96,8 @@ size_t nurbs_basis_span(int degree, size_t n, const double *knots, double u, siz
 
 void nurbs_greville(int degree, size_t n, const double *knots, double *greville)
 {
+    if (!knots || !greville)
+        return;
     for (size_t i = 0; i < n; i++) {
         if (degree == 0) {
             greville[i] = 0.5 * (knots[i] + knots[i + 1]);
@@ -111,6 +115,8 @@ void nurbs_greville(int degree, size_t n, const double *knots, double *greville)
 size_t nurbs_knots_distinct(int degree, size_t n, const double *knots, double *breaks,
                             int *multiplicities)
 {
+    if (!knots || !breaks)
+        return 0;
     size_t count = 0;
     for (size_t i = 0; i < n + (size_t)degree + 1; i++) {
         if (count == 0 || knots[i] != breaks[count - 1]) {

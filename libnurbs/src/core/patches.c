@@ -21,6 +21,7 @@ struct nurbs_patches {
 
 nurbs_status nurbs_patches_create(nurbs_patches **patches)
 {
+    NURBS_NEED(patches);
     *patches = calloc(1, sizeof **patches);
     if (!*patches)
         return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for a set of patches");
@@ -43,6 +44,7 @@ void nurbs_patches_free(nurbs_patches *patches)
 
 nurbs_status nurbs_patches_add(nurbs_patches *patches, const nurbs_surface *surface)
 {
+    NURBS_NEED(patches && surface);
     if (patches->count == patches->room) {
         size_t room = patches->room ? 2 * patches->room : 8;
         struct patch *larger = realloc(patches->patch, room * sizeof *larger);
@@ -60,16 +62,17 @@ nurbs_status nurbs_patches_add(nurbs_patches *patches, const nurbs_surface *surf
 
 size_t nurbs_patches_count(const nurbs_patches *patches)
 {
-    return patches->count;
+    return patches ? patches->count : 0;
 }
 
 const nurbs_surface *nurbs_patches_get(const nurbs_patches *patches, size_t index)
 {
-    return index < patches->count ? patches->patch[index].surface : NULL;
+    return patches && index < patches->count ? patches->patch[index].surface : NULL;
 }
 
 nurbs_status nurbs_patches_set_note(nurbs_patches *patches, const char *text)
 {
+    NURBS_NEED(patches);
     size_t bytes = text ? strlen(text) + 1 : 1;
     char *copy = malloc(bytes);
     if (!copy)
@@ -82,11 +85,12 @@ nurbs_status nurbs_patches_set_note(nurbs_patches *patches, const char *text)
 
 const char *nurbs_patches_note(const nurbs_patches *patches)
 {
-    return patches->note ? patches->note : "";
+    return patches && patches->note ? patches->note : "";
 }
 
 nurbs_status nurbs_patches_set_length(nurbs_patches *patches, double length)
 {
+    NURBS_NEED(patches);
     if (!(isfinite(length) && length >= 0))
         return nurbs_fail(NURBS_ERROR_ARGUMENT, "length %g, expected a finite length >= 0", length);
     patches->length = length;
@@ -95,7 +99,7 @@ nurbs_status nurbs_patches_set_length(nurbs_patches *patches, double length)
 
 double nurbs_patches_length(const nurbs_patches *patches)
 {
-    return patches->length;
+    return patches ? patches->length : 0;
 }
 
 static nurbs_status check_parameters(const nurbs_surface *surface, int direction, size_t n,
@@ -118,6 +122,7 @@ static nurbs_status check_parameters(const nurbs_surface *surface, int direction
 nurbs_status nurbs_patches_set_parameters(nurbs_patches *patches, size_t index, size_t rows,
                                           const double *u, size_t columns, const double *v)
 {
+    NURBS_NEED(patches && (rows == 0 || u) && (columns == 0 || v));
     if (index >= patches->count)
         return nurbs_fail(NURBS_ERROR_ARGUMENT, "patch %zu of %zu", index, patches->count);
     struct patch *patch = &patches->patch[index];
@@ -148,8 +153,10 @@ nurbs_status nurbs_patches_set_parameters(nurbs_patches *patches, size_t index, 
 size_t nurbs_patches_parameters(const nurbs_patches *patches, size_t index, int direction,
                                 const double **values)
 {
+    if (!values)
+        return 0;
     *values = NULL;
-    if (index >= patches->count || direction < 0 || direction > 1)
+    if (!patches || index >= patches->count || direction < 0 || direction > 1)
         return 0;
     *values = patches->patch[index].parameters[direction];
     return patches->patch[index].count[direction];

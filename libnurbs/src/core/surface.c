@@ -79,6 +79,7 @@ nurbs_status nurbs_surface_create(const int degree[2], const size_t size[2], con
 
 nurbs_status nurbs_surface_copy(const nurbs_surface *surface, nurbs_surface **copy)
 {
+    NURBS_NEED(surface && copy);
     const int degree[2] = {surface->axis[0].degree, surface->axis[1].degree};
     const size_t size[2] = {surface->axis[0].size, surface->axis[1].size};
     return nurbs_surface_create(degree, size, surface->axis[0].knots, surface->axis[1].knots,
@@ -92,25 +93,25 @@ void nurbs_surface_free(nurbs_surface *surface)
 
 int nurbs_surface_degree(const nurbs_surface *surface, int direction)
 {
-    return surface->axis[direction].degree;
+    return surface ? surface->axis[direction].degree : 0;
 }
 
 size_t nurbs_surface_size(const nurbs_surface *surface, int direction)
 {
-    return surface->axis[direction].size;
+    return surface ? surface->axis[direction].size : 0;
 }
 
 const double *nurbs_surface_knots(const nurbs_surface *surface, int direction)
 {
-    return surface->axis[direction].knots;
+    return surface ? surface->axis[direction].knots : NULL;
 }
 
 const double *nurbs_surface_points(const nurbs_surface *surface)
 {
-    return surface->points;
+    return surface ? surface->points : NULL;
 }
 
 const double *nurbs_surface_weights(const nurbs_surface *surface)
 {
-    return surface->weights;
+    return surface ? surface->weights : NULL;
 }

@@ -11,6 +11,7 @@
 
 nurbs_status nurbs_ruled(const nurbs_curve *first, const nurbs_curve *last, nurbs_surface **surface)
 {
+    NURBS_NEED(first && last && surface);
     /* Skinning of degree 1 runs its lines along u; the curves shall be the u lines. */
     const nurbs_curve *const both[2] = {first, last};
     nurbs_surface *skin;
@@ -140,6 +141,7 @@ nurbs_status nurbs_coons(const nurbs_curve *u_first, const nurbs_curve *u_last,
                          const nurbs_curve *v_first, const nurbs_curve *v_last,
                          nurbs_surface **surface)
 {
+    NURBS_NEED(u_first && u_last && v_first && v_last && surface);
     const nurbs_curve *const u[2] = {u_first, u_last}, *const v[2] = {v_first, v_last};
     nurbs_surface *part[3] = {NULL, NULL, NULL}, *like = NULL;
     double corner[4][3];

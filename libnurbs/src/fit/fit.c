@@ -119,6 +119,7 @@ nurbs_status check_fit_request(int degree, size_t size, const double *knots, siz
 nurbs_status nurbs_curve_fit(int degree, size_t size, const double *knots, size_t n,
                              const double *points, const double *u, nurbs_curve **curve)
 {
+    NURBS_NEED(knots && curve && (n == 0 || (points && u)));
     fit_matrix fit;
     *curve = NULL;
     nurbs_status status = check_fit_request(degree, size, knots, n, u);
@@ -169,6 +170,7 @@ nurbs_status nurbs_surface_fit(const int degree[2], const size_t size[2], const 
                                const double *knots_v, const nurbs_grid *grid, const double *u,
                                const double *v, nurbs_surface **surface)
 {
+    NURBS_NEED(degree && size && knots_u && knots_v && grid && u && v && surface);
     const double *const knots[2] = {knots_u, knots_v}, *const parameters[2] = {u, v};
     const size_t n[2] = {nurbs_grid_rows(grid), nurbs_grid_columns(grid)};
     fit_matrix fit[2] = {{0}, {0}};

@@ -171,6 +171,7 @@ nurbs_status nurbs_surface_fit_points(const int degree[2], const size_t size[2],
                                       const double *points, const double *uv, double smoothing,
                                       nurbs_surface **surface)
 {
+    NURBS_NEED(degree && size && knots_u && knots_v && surface && (n == 0 || (points && uv)));
     normal_equations system = {degree, size, {knots_u, knots_v}, NULL, NULL};
     *surface = NULL;
     nurbs_status status = check_points(degree, size, system.knots, n, points, uv, smoothing);

@@ -281,6 +281,7 @@ static nurbs_status solve_direction(int degree, size_t n, const double *u, size_
 nurbs_status nurbs_surface_interpolate(const int degree[2], const nurbs_grid *grid, const double *u,
                                        const double *v, nurbs_surface **surface)
 {
+    NURBS_NEED(degree && grid && u && v && surface);
     const size_t n[2] = {nurbs_grid_rows(grid), nurbs_grid_columns(grid)};
     const double *points = nurbs_grid_points(grid);
     *surface = NULL;
@@ -314,6 +315,7 @@ nurbs_status nurbs_surface_interpolate(const int degree[2], const nurbs_grid *gr
 nurbs_status nurbs_curve_interpolate(int degree, size_t n, const double *points, const double *u,
                                      nurbs_curve **curve)
 {
+    NURBS_NEED(curve && (n == 0 || (points && u)));
     *curve = NULL;
     if (degree < 1 || degree > NURBS_MAX_DEGREE || n <= (size_t)degree)
         return nurbs_fail(NURBS_ERROR_ARGUMENT,

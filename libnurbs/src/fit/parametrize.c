@@ -54,6 +54,7 @@ static double foley_increment(size_t n, const double *points, size_t k)
 nurbs_status nurbs_parametrize(nurbs_parametrization kind, size_t n, const double *points,
                                double *u)
 {
+    NURBS_NEED(n == 0 || (points && u));
     if (n < 2)
         return nurbs_fail(NURBS_ERROR_ARGUMENT, "%zu points to parametrise, expected at least 2",
                           n);

@@ -17,6 +17,8 @@
 
 void nurbs_skin_options_init(nurbs_skin_options *options)
 {
+    if (!options)
+        return;
     *options = (nurbs_skin_options){.degree = 3,
                                     .parametrize = NURBS_PARAMETRIZATION_CENTRIPETAL,
                                     .kink_angle = 0.34906585039886592};
@@ -282,6 +284,7 @@ static nurbs_status parameters(const nurbs_skin_options *options, skin *work)
 nurbs_status nurbs_skin_parameters(const nurbs_grid *grid, const nurbs_skin_options *options,
                                    double *u, double *v)
 {
+    NURBS_NEED(grid && u && v);
     nurbs_skin_options defaults;
     nurbs_skin_options_init(&defaults);
     options = options ? options : &defaults;
@@ -296,6 +299,7 @@ nurbs_status nurbs_skin_parameters(const nurbs_grid *grid, const nurbs_skin_opti
 nurbs_status nurbs_skin(const nurbs_grid *grid, const nurbs_skin_options *options,
                         nurbs_surface **surface)
 {
+    NURBS_NEED(grid && surface);
     nurbs_skin_options defaults;
     skin work;
     *surface = NULL;

@@ -181,6 +181,7 @@ static nurbs_status make_common(size_t n, const nurbs_curve *const *sections, do
 nurbs_status nurbs_skin_curves(size_t n, const nurbs_curve *const *sections, const double *u,
                                int degree, double tolerance, nurbs_surface **surface)
 {
+    NURBS_NEED(surface && (n == 0 || sections));
     common shared = {0};
     *surface = NULL;
     nurbs_status status = check_sections(n, sections, u, degree, tolerance);

@@ -148,6 +148,7 @@ static nurbs_status compute(size_t n, const nurbs_surface *const *wetted, const 
 nurbs_status nurbs_hydrostatics_compute(size_t n, const nurbs_surface *const *wetted, double level,
                                         nurbs_hydrostatics *result)
 {
+    NURBS_NEED(result && (n == 0 || wetted));
     *result = (nurbs_hydrostatics){0};
     if (n == 0)
         return nurbs_fail(NURBS_ERROR_ARGUMENT, "no patches");

@@ -105,6 +105,7 @@ static int reaches_level(const nurbs_surface *surface, double level)
 nurbs_status nurbs_transom_patches(size_t n, const nurbs_surface *const *wetted, double level,
                                    int *closes)
 {
+    NURBS_NEED(n == 0 || (wetted && closes));
     patch_sums *sums = NULL;
     if (n == 0)
         return nurbs_fail(NURBS_ERROR_ARGUMENT, "no patches");

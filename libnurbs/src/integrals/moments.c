@@ -129,6 +129,7 @@ static nurbs_status add_point(sums *work, double u, double v, double weight)
 nurbs_status nurbs_surface_moments(const nurbs_surface *surface, nurbs_moments *moments,
                                    double *gradient)
 {
+    NURBS_NEED(surface && moments);
     const double *t[2] = {nurbs_surface_knots(surface, 0), nurbs_surface_knots(surface, 1)};
     const size_t size[2] = {nurbs_surface_size(surface, 0), nurbs_surface_size(surface, 1)};
     int degree[2] = {nurbs_surface_degree(surface, 0), nurbs_surface_degree(surface, 1)};
@@ -220,6 +221,7 @@ static nurbs_status add_patch(const nurbs_surface *surface, moment_sums *total,
 nurbs_status nurbs_patches_moments(const nurbs_patches *patches, nurbs_moments *moments,
                                    nurbs_moments *error)
 {
+    NURBS_NEED(patches && moments);
     moment_sums total = {{0}, {0}};
     double errors[NURBS_MOMENTS] = {0};
     nurbs_status status = NURBS_OK;

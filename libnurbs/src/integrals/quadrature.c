@@ -119,6 +119,7 @@ nurbs_status patch_integrate(const nurbs_surface *surface, double level, size_t 
 
 nurbs_status nurbs_surface_area(const nurbs_surface *surface, double *area, double *error)
 {
+    NURBS_NEED(surface && area);
     patch_sums coarse, fine;
     size_t order = 4;
     double relative;

@@ -296,6 +296,7 @@ nurbs_status nurbs_patches_read_iges_untrimmed(const char *path, double toleranc
                                                nurbs_patches **patches, char *report,
                                                size_t report_size)
 {
+    NURBS_NEED(path && patches);
     iges_file file = {.report = report, .report_size = report_size};
     numeric_locale locale;
     *patches = NULL;
@@ -322,5 +323,6 @@ nurbs_status nurbs_patches_read_iges_untrimmed(const char *path, double toleranc
 nurbs_status nurbs_patches_read_iges(const char *path, nurbs_patches **patches, char *report,
                                      size_t report_size)
 {
+    NURBS_NEED(path && patches);
     return nurbs_patches_read_iges_untrimmed(path, 0, patches, report, report_size);
 }

@@ -61,6 +61,7 @@ void nurbs_curves_free(size_t n, nurbs_curve **curves)
 
 nurbs_status nurbs_curves_read_iges(const char *path, size_t *n, nurbs_curve ***curves)
 {
+    NURBS_NEED(path && n && curves);
     iges_file file = {0};
     curve_list list = {0};
     numeric_locale locale;

@@ -206,6 +206,7 @@ static nurbs_status write_entities(FILE *stream, const nurbs_patches *patches, d
 
 nurbs_status nurbs_patches_write_iges(const nurbs_patches *patches, const char *path)
 {
+    NURBS_NEED(patches && path);
     outfile file;
     size_t lines[2] = {0, 0};
     if (nurbs_patches_count(patches) == 0)
@@ -227,6 +228,7 @@ nurbs_status nurbs_patches_write_iges(const nurbs_patches *patches, const char *
 
 nurbs_status nurbs_surface_write_iges(const nurbs_surface *surface, const char *path)
 {
+    NURBS_NEED(surface && path);
     nurbs_patches *patches;
     nurbs_status status = nurbs_patches_create(&patches);
     if (status == NURBS_OK)

@@ -23,6 +23,7 @@ static int has_extension(const char *path, const char *extension)
 nurbs_status nurbs_patches_read_reported(const char *path, double tolerance,
                                          nurbs_patches **patches, char *report, size_t report_size)
 {
+    NURBS_NEED(path && patches);
     *patches = NULL;
     if (report && report_size)
         report[0] = '\0';
@@ -38,11 +39,13 @@ nurbs_status nurbs_patches_read_reported(const char *path, double tolerance,
 
 nurbs_status nurbs_patches_read(const char *path, nurbs_patches **patches)
 {
+    NURBS_NEED(path && patches);
     return nurbs_patches_read_reported(path, 0, patches, NULL, 0);
 }
 
 nurbs_status nurbs_patches_write(const nurbs_patches *patches, const char *path)
 {
+    NURBS_NEED(patches && path);
     if (has_extension(path, ".json"))
         return nurbs_patches_write_json(patches, path);
     if (has_extension(path, ".igs") || has_extension(path, ".iges"))

@@ -209,6 +209,7 @@ static nurbs_status parse(const char *path, const char *text, size_t length, jso
 
 nurbs_status nurbs_patches_read_json(const char *path, nurbs_patches **patches)
 {
+    NURBS_NEED(path && patches);
     char *text;
     size_t length;
     *patches = NULL;
@@ -304,6 +305,7 @@ static char *quoted(const char *text)
 
 nurbs_status nurbs_patches_write_json(const nurbs_patches *patches, const char *path)
 {
+    NURBS_NEED(patches && path);
     size_t count = nurbs_patches_count(patches);
     if (count == 0)
         return nurbs_fail(NURBS_ERROR_ARGUMENT, "%s: no patches to write", path);

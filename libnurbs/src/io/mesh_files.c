@@ -107,6 +107,7 @@ static void put_triangle(FILE *stream, const double *a, const double *b, const d
 
 nurbs_status nurbs_patches_write_stl(const nurbs_patches *patches, int parts, const char *path)
 {
+    NURBS_NEED(patches && path);
     size_t count = nurbs_patches_count(patches), triangles = 0;
     mesh *meshes;
     outfile file;
@@ -161,6 +162,7 @@ static void write_piece(FILE *stream, const mesh *grid)
 
 nurbs_status nurbs_patches_write_vtu(const nurbs_patches *patches, int parts, const char *path)
 {
+    NURBS_NEED(patches && path);
     size_t count = nurbs_patches_count(patches);
     mesh *meshes;
     outfile file;
@@ -182,6 +184,7 @@ nurbs_status nurbs_patches_write_vtu(const nurbs_patches *patches, int parts, co
 
 nurbs_status nurbs_patches_write_points(const nurbs_patches *patches, const char *path)
 {
+    NURBS_NEED(patches && path);
     outfile file;
     nurbs_status status = outfile_open(&file, path);
     if (status != NURBS_OK)

@@ -505,6 +505,7 @@ nurbs_status nurbs_surface_untrim_parts(const nurbs_surface *surface, size_t loo
                                         const size_t *count, const nurbs_curve *const *const *loop,
                                         double tolerance, nurbs_patches *patches, double *deviation)
 {
+    NURBS_NEED(surface && count && loop && patches);
     nurbs_status status = check(surface, loops, count, loop, tolerance, patches);
     if (status != NURBS_OK)
         return status;

@@ -346,6 +346,7 @@ nurbs_status nurbs_surface_untrim(const nurbs_surface *surface, size_t n,
                                   const nurbs_curve *const *loop, double tolerance,
                                   nurbs_surface **patch, double *deviation)
 {
+    NURBS_NEED(patch);
     trim_loop opened = {0};
     double reached = 0;
     *patch = NULL;

@@ -46,6 +46,7 @@ static void fill_arc(double grading, struct arc *arc)
 nurbs_status nurbs_make_ellipsoid(double length, double beam, double height, double depth,
                                   nurbs_surface **surface)
 {
+    NURBS_NEED(surface);
     *surface = NULL;
     nurbs_status status = check_lengths("ellipsoid", 3, (const double[]){length, beam, height});
     if (status != NURBS_OK)
@@ -74,6 +75,7 @@ nurbs_status nurbs_make_ellipsoid(double length, double beam, double height, dou
 
 nurbs_status nurbs_make_wigley(double length, double beam, double draft, nurbs_surface **surface)
 {
+    NURBS_NEED(surface);
     *surface = NULL;
     nurbs_status status = check_lengths("Wigley hull", 3, (const double[]){length, beam, draft});
     if (status != NURBS_OK)

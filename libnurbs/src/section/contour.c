@@ -214,6 +214,8 @@ static nurbs_status collect(const march *m, nurbs_contour *contour)
 
 void nurbs_contour_free(nurbs_contour *contour)
 {
+    if (!contour)
+        return;
     free(contour->first);
     free(contour->points);
     free(contour->uv);
@@ -233,6 +235,7 @@ static int fine_parts(const nurbs_surface *surface)
 nurbs_status nurbs_surface_contour(const nurbs_surface *surface, const double normal[3],
                                    double offset, int parts, nurbs_contour *contour)
 {
+    NURBS_NEED(surface && normal && contour);
     march m;
     *contour = (nurbs_contour){0};
     if (parts < 0 || parts > MAX_PARTS)

@@ -245,6 +245,7 @@ nurbs_status raise_to_side(const int degree[2], const size_t size[2], const doub
 nurbs_status nurbs_surface_raise_side(const nurbs_surface *surface, nurbs_surface **result,
                                       double *moved)
 {
+    NURBS_NEED(surface && result);
     *result = NULL;
     const int degree[2] = {nurbs_surface_degree(surface, 0), nurbs_surface_degree(surface, 1)};
     const size_t size[2] = {nurbs_surface_size(surface, 0), nurbs_surface_size(surface, 1)};

@@ -417,6 +417,7 @@ nurbs_status surface_wetted(const nurbs_surface *hull, double level, double tole
 nurbs_status nurbs_surface_wetted(const nurbs_surface *hull, double level, double tolerance,
                                   nurbs_surface **wetted)
 {
+    NURBS_NEED(hull && wetted);
     double deviation;
     return surface_wetted(hull, level, tolerance, wetted, &deviation);
 }

@@ -79,6 +79,7 @@ static double determinant(const double *m)
 nurbs_status nurbs_patches_transform(const nurbs_patches *patches, const double *matrix,
                                      const double shift[3], nurbs_patches **result)
 {
+    NURBS_NEED(patches && result);
     double size = matrix ? determinant(matrix) : 1;
     *result = NULL;
     if (!isfinite(size) || size == 0)
@@ -91,6 +92,7 @@ nurbs_status nurbs_patches_transform(const nurbs_patches *patches, const double 
 
 nurbs_status nurbs_patches_mirror(const nurbs_patches *patches, int axis, nurbs_patches **result)
 {
+    NURBS_NEED(patches && result);
     double matrix[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     *result = NULL;
     if (axis < 0 || axis > 2)
@@ -146,6 +148,7 @@ static nurbs_status spread(const nurbs_topology *topology, size_t seed, size_t n
 nurbs_status nurbs_topology_orient(const nurbs_topology *topology, int *sign, size_t *part,
                                    size_t *parts)
 {
+    NURBS_NEED(topology && sign && part && parts);
     size_t n = topology->edges / 4, *queue = malloc((n + 1) * sizeof *queue);
     nurbs_status status = NURBS_OK;
     *parts = 0;
@@ -182,6 +185,7 @@ static nurbs_status point_outwards(const nurbs_patches *patches, size_t parts, c
 nurbs_status nurbs_patches_orient(const nurbs_patches *patches, double tolerance,
                                   nurbs_patches **result, size_t *turned)
 {
+    NURBS_NEED(patches && result);
     size_t n = nurbs_patches_count(patches), count = 0, parts = 0;
     nurbs_topology topology;
     *result = NULL;

@@ -288,6 +288,7 @@ static nurbs_status find_joints(const nurbs_patches *patches, finder *f)
 nurbs_status nurbs_patches_topology(const nurbs_patches *patches, double tolerance,
                                     nurbs_topology *topology)
 {
+    NURBS_NEED(patches && topology);
     *topology = (nurbs_topology){0};
     if (!(isfinite(tolerance) && tolerance > 0))
         return nurbs_fail(NURBS_ERROR_ARGUMENT, "tolerance %g, expected a length > 0", tolerance);
@@ -313,6 +314,8 @@ nurbs_status nurbs_patches_topology(const nurbs_patches *patches, double toleran
 
 void nurbs_topology_free(nurbs_topology *topology)
 {
+    if (!topology)
+        return;
     free(topology->edge);
     free(topology->joint);
     *topology = (nurbs_topology){0};
