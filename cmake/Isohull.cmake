@@ -195,17 +195,22 @@ function(isohull_tool name)
                                                 "$ORIGIN/${ISOHULL_LIBDIR_FROM_BINDIR}")
   target_compile_definitions(${name}_tool PRIVATE TOOL_VERSION="${PROJECT_VERSION}")
   target_link_libraries(${name}_tool PRIVATE tool_common ${ARG_LIBRARIES} isohull_flags m)
+  # Man pages and completions of shells, from --help.
+  set(pages ${CMAKE_CURRENT_BINARY_DIR}/pages)
   add_custom_command(
-    OUTPUT ${name}.1
+    OUTPUT ${pages}/man1/${name}.1
     COMMAND ${CMAKE_COMMAND} -DCOMMAND=$<TARGET_FILE:${name}_tool> -DNAME=${name}
-            -DVERSION=${PROJECT_VERSION} -DOUTPUT=${name}.1 -P
-            ${PROJECT_SOURCE_DIR}/cmake/manpage.cmake
+            -DVERSION=${PROJECT_VERSION} -DOUTPUT=${pages} -P ${PROJECT_SOURCE_DIR}/cmake/manpage.cmake
     DEPENDS ${name}_tool ${PROJECT_SOURCE_DIR}/cmake/manpage.cmake
     VERBATIM)
-  add_custom_target(${name}_manpage ALL DEPENDS ${name}.1)
+  add_custom_target(${name}_manpage ALL DEPENDS ${pages}/man1/${name}.1)
   if(ISOHULL_INSTALL)
     install(TARGETS ${name}_tool RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-    install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+    install(DIRECTORY ${pages}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR})
+    install(FILES ${pages}/bash/${name} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+    install(FILES ${pages}/zsh/_${name} DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+    install(FILES ${pages}/fish/${name}.fish
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
   endif()
 endfunction()
 
