@@ -24,6 +24,7 @@ BAYESOPT_API double bayesopt_log_h_derivative(double z);
 
 /** log Phi(z), the normal distribution's logarithm, and its derivative phi(z)/Phi(z). */
 BAYESOPT_API double bayesopt_log_cdf(double z);
+/** Its derivative, the inverse Mills ratio. */
 BAYESOPT_API double bayesopt_log_cdf_derivative(double z);
 
 /** log(Phi(b) - Phi(a)) for a < b, infinite ends allowed. */

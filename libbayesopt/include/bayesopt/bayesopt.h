@@ -85,7 +85,9 @@ typedef enum bayesopt_acquisition {
 
 /** Name of a phase ("global"), state ("done") or strategy ("auto"); "unknown" outside the list. */
 BAYESOPT_API const char *bayesopt_phase_name(bayesopt_phase phase);
+/** Name of a state, static; "unknown" for none. */
 BAYESOPT_API const char *bayesopt_state_name(bayesopt_state state);
+/** Name of a strategy, static; "unknown" for none. */
 BAYESOPT_API const char *bayesopt_strategy_name(bayesopt_strategy strategy);
 /** Name of a kind ("integer"); "unknown" outside the list. */
 BAYESOPT_API const char *bayesopt_kind_name(bayesopt_kind kind);
@@ -406,7 +408,9 @@ BAYESOPT_API size_t bayesopt_constraint_count(const bayesopt *bo, double *lower,
 
 /** Budget, size of the initial design, and seed. */
 BAYESOPT_API size_t bayesopt_budget(const bayesopt *bo);
+/** Points of the initial design; 0 of NULL. */
 BAYESOPT_API size_t bayesopt_initial_count(const bayesopt *bo);
+/** The seed of the run; 0 of NULL. */
 BAYESOPT_API uint64_t bayesopt_seed(const bayesopt *bo);
 
 /** Kind of variable j; BAYESOPT_KIND_REAL outside of the list. */

@@ -16,6 +16,7 @@
 extern "C" {
 #endif
 
+/** Kinds of design. */
 typedef enum bayesopt_design_kind {
     BAYESOPT_DESIGN_UNIFORM,      /**< independent uniform points */
     BAYESOPT_DESIGN_LHS,          /**< random Latin hypercube */

@@ -40,6 +40,7 @@ typedef struct bayesopt_expression bayesopt_expression;
 BAYESOPT_API bayesopt_status bayesopt_expression_create(const char *text, size_t n,
                                                         const char *const *names,
                                                         bayesopt_expression **expression);
+/** Frees an expression; takes NULL. */
 BAYESOPT_API void bayesopt_expression_free(bayesopt_expression *expression);
 
 /** The value at values [n]: of a comparison the left side minus the right one, with the sign that

@@ -39,12 +39,14 @@ typedef enum bayesopt_scales {
     BAYESOPT_SCALES_AUTO,      /**< isotropic or ARD, whichever bayesopt_gp_choice prefers */
 } bayesopt_scales;
 
+/** Mean of the process. */
 typedef enum bayesopt_mean {
     BAYESOPT_MEAN_FIXED,    /**< a constant given by the caller */
     BAYESOPT_MEAN_CONSTANT, /**< unknown constant, generalised least squares */
     BAYESOPT_MEAN_LINEAR,   /**< unknown constant and slope, generalised least squares */
 } bayesopt_mean;
 
+/** What is known of the noise. */
 typedef enum bayesopt_noise {
     BAYESOPT_NOISE_DETERMINISTIC, /**< sn2 = 1e-6 sf2-free units of the standardised data, a guard
                                      only */
@@ -72,7 +74,9 @@ typedef enum bayesopt_choice {
     BAYESOPT_CHOICE_LOO,       /**< leave-one-out log predictive density */
 } bayesopt_choice;
 
+/** Name of a kernel, static. */
 BAYESOPT_API const char *bayesopt_kernel_name(bayesopt_kernel kernel);
+/** Name of a transform, static. */
 BAYESOPT_API const char *bayesopt_transform_name(bayesopt_transform transform);
 
 /** A regression: options, data, hyper-parameters, factorisation. */
@@ -104,11 +108,13 @@ typedef struct bayesopt_gp_options {
     double reserved[8]; /**< 0: room for members of later releases */
 } bayesopt_gp_options;
 
+/** Fills the defaults; nothing when NULL. */
 BAYESOPT_API void bayesopt_gp_options_init(bayesopt_gp_options *options);
 
 /** Creates an empty regression in d variables; release with bayesopt_gp_free(). */
 BAYESOPT_API bayesopt_status bayesopt_gp_create(size_t d, const bayesopt_gp_options *options,
                                                 bayesopt_gp **gp);
+/** Frees a model; takes NULL. */
 BAYESOPT_API void bayesopt_gp_free(bayesopt_gp *gp);
 
 /**
@@ -171,6 +177,7 @@ typedef struct bayesopt_gp_info {
     double reserved[8];    /**< 0: room for members of later releases */
 } bayesopt_gp_info;
 
+/** Fills info with what the fit found. */
 BAYESOPT_API bayesopt_status bayesopt_gp_get_info(const bayesopt_gp *gp, bayesopt_gp_info *info);
 
 /**
@@ -190,6 +197,7 @@ BAYESOPT_API bayesopt_status bayesopt_gp_predict_gradient(const bayesopt_gp *gp,
 
 /** Modelled value of an output and back; the transform of the last fit, monotone. */
 BAYESOPT_API double bayesopt_gp_to_model(const bayesopt_gp *gp, double y);
+/** The way back: the output whose modelled value is value. */
 BAYESOPT_API double bayesopt_gp_from_model(const bayesopt_gp *gp, double value);
 
 /**

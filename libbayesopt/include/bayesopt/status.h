@@ -47,6 +47,7 @@ enum {
     X(BAYESOPT_NONE_FEASIBLE, 4, "no evaluation satisfies the outcome constraints")                \
     X(BAYESOPT_STOP_EXHAUSTED, 5, "every point that the variables allow has been asked")
 
+/** What a call returns: 0 for success, negative for an error. */
 typedef enum bayesopt_status {
 #define BAYESOPT_STATUS_ENUM(name, value, text) name = value,
     BAYESOPT_STATUS_LIST(BAYESOPT_STATUS_ENUM)

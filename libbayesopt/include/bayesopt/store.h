@@ -71,6 +71,7 @@ typedef struct bayesopt_table bayesopt_table;
  * bayesopt_table_free(). A table without rows is no error. */
 BAYESOPT_API bayesopt_status bayesopt_store_get_table(const bayesopt *bo, const char *table,
                                                       bayesopt_table **out);
+/** Frees a table; takes NULL. */
 BAYESOPT_API void bayesopt_table_free(bayesopt_table *table);
 /** Number of rows. */
 BAYESOPT_API size_t bayesopt_table_rows(const bayesopt_table *table);

@@ -125,6 +125,7 @@ GALV_API size_t galv_shape_parameters(const galv_shape *shape);
 
 /** The n lower (upper) bounds of the parameters. Borrowed from the shape; NULL for NULL. */
 GALV_API const double *galv_shape_lower(const galv_shape *shape);
+/** Upper bounds of the parameters. Borrowed; NULL of NULL. */
 GALV_API const double *galv_shape_upper(const galv_shape *shape);
 
 /** Whether d is linear in x by construction: then the spectrum is the eigenproblem of an n x n

@@ -33,6 +33,7 @@ extern "C" {
     X(GALV_ERROR_NUMERIC, -6, "numerical failure")                                                 \
     X(GALV_ERROR_CANCELLED, -7, "cancelled by the caller")
 
+/** What a call returns: 0 for success, negative for an error. */
 typedef enum galv_status {
 #define GALV_STATUS_ENUM(name, value, text) name = value,
     GALV_STATUS_LIST(GALV_STATUS_ENUM)

@@ -11,6 +11,7 @@
 extern "C" {
 #endif
 
+/** What igabem_equilibrium_find() found. */
 typedef struct igabem_equilibrium {
     double sinkage; /**< m, positive down */
     double trim;    /**< radians, positive bow up */

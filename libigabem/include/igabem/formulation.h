@@ -14,6 +14,7 @@
 extern "C" {
 #endif
 
+/** What is solved, and what radiates: igabem_formulation_info() tells. */
 typedef enum igabem_formulation {
     IGABEM_FORMULATION_AUTO, /**< by the hull: igabem_options_freeze() chooses */
     IGABEM_FORMULATION_NEUMANN_KELVIN,
@@ -44,6 +45,7 @@ IGABEM_API const igabem_formulation_row *igabem_formulation_info(igabem_formulat
 
 /** Name of a formulation, NULL if unknown; and back (returns false if there is no such name). */
 IGABEM_API const char *igabem_formulation_name(igabem_formulation formulation);
+/** Finds the formulation of a name as on the command line; IGABEM_ERROR_ARGUMENT for others. */
 IGABEM_API bool igabem_formulation_parse(const char *name, igabem_formulation *formulation);
 
 #ifdef __cplusplus

@@ -38,6 +38,7 @@ IGABEM_API igabem_status igabem_hull_create(const nurbs_surface *const *patches,
 /** The same from the light surfaces of a hull read or rebuilt by libnurbs (nurbs/hull.h), with its
  * reference length; copies them. Errors as above. */
 IGABEM_API igabem_status igabem_hull_from(const nurbs_hull *source, igabem_hull **hull);
+/** Frees a hull; takes NULL. */
 IGABEM_API void igabem_hull_free(igabem_hull *hull);
 
 /** Reference length of Froude number and coefficients, m; default: waterline length, or the body's

@@ -154,6 +154,7 @@ IGABEM_API igabem_status igabem_kelvin_green_second(double k0, size_t n, const d
  */
 IGABEM_API igabem_status igabem_kelvin_source_resistance(double rho, double k0, double depth,
                                                          double strength, double *resistance);
+/** Of an x-dipole of moment, m^4/s: see igabem_kelvin_source_resistance(). */
 IGABEM_API igabem_status igabem_kelvin_dipole_resistance(double rho, double k0, double depth,
                                                          double moment, double *resistance);
 /** gravity in m/s^2, > 0; U^2 = gravity/k0. */

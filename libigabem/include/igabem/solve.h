@@ -111,6 +111,7 @@ IGABEM_API igabem_status igabem_solve(const igabem_hull *hull, const igabem_opti
 IGABEM_API igabem_status igabem_solve_many(const igabem_hull *hull, size_t n,
                                            const igabem_options *options,
                                            igabem_solution **solutions);
+/** Frees a solution; takes NULL. */
 IGABEM_API void igabem_solution_free(igabem_solution *solution);
 
 /** Work of the quadrature of a solve: each singular, near or far pair is a collocation point, or a

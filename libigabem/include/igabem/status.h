@@ -33,6 +33,7 @@ extern "C" {
     X(IGABEM_ERROR_NUMERIC, -6, "numerical failure")                                               \
     X(IGABEM_ERROR_CANCELLED, -7, "cancelled by the caller")
 
+/** What a call returns: 0 for success, negative for an error. */
 typedef enum igabem_status {
 #define IGABEM_STATUS_ENUM(name, value, text) name = value,
     IGABEM_STATUS_LIST(IGABEM_STATUS_ENUM)

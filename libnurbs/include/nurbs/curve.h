@@ -19,15 +19,20 @@ typedef struct nurbs_curve nurbs_curve;
 NURBS_API nurbs_status nurbs_curve_create(int degree, size_t n, const double *knots,
                                           const double *points, const double *weights,
                                           nurbs_curve **curve);
+/** Creates a copy. */
 NURBS_API nurbs_status nurbs_curve_copy(const nurbs_curve *curve, nurbs_curve **copy);
 /** Takes NULL. */
 NURBS_API void nurbs_curve_free(nurbs_curve *curve);
 
+/** Degree; 0 of NULL. */
 NURBS_API int nurbs_curve_degree(const nurbs_curve *curve);
+/** Number of control points; 0 of NULL. */
 NURBS_API size_t nurbs_curve_size(const nurbs_curve *curve);
 /** Borrowed from the curve: knots[size + degree + 1], points[3 * size], weights[size] or NULL. */
 NURBS_API const double *nurbs_curve_knots(const nurbs_curve *curve);
+/** Control points, x,y,z triples. Borrowed; NULL of NULL. */
 NURBS_API const double *nurbs_curve_points(const nurbs_curve *curve);
+/** Weights, or NULL when all are 1. Borrowed. */
 NURBS_API const double *nurbs_curve_weights(const nurbs_curve *curve);
 
 /** Points and derivatives at n parameters: fills out[n][order + 1][3], order 0 to 50. u outside the

@@ -13,6 +13,7 @@
 extern "C" {
 #endif
 
+/** How parameters follow from points. */
 typedef enum nurbs_parametrization {
     NURBS_PARAMETRIZATION_UNIFORM,
     NURBS_PARAMETRIZATION_CHORD,
@@ -59,6 +60,7 @@ typedef struct nurbs_skin_options {
     double reserved[8];  /**< 0: room for members of later releases */
 } nurbs_skin_options;
 
+/** Fills the defaults; nothing when NULL. */
 NURBS_API void nurbs_skin_options_init(nurbs_skin_options *options);
 
 /** Surface through all points of the grid: a section curve per row, then skinned on common knots.

@@ -20,14 +20,20 @@ typedef struct nurbs_grid nurbs_grid;
  */
 NURBS_API nurbs_status nurbs_grid_create(size_t rows, size_t columns, const double *points,
                                          nurbs_grid **grid);
+/** Frees a grid; takes NULL. */
 NURBS_API void nurbs_grid_free(nurbs_grid *grid);
+/** Rows (sections); 0 of NULL. */
 NURBS_API size_t nurbs_grid_rows(const nurbs_grid *grid);
+/** Columns (points of a section); 0 of NULL. */
 NURBS_API size_t nurbs_grid_columns(const nurbs_grid *grid);
 /** Borrowed, x,y,z triples, rows slow: 3 * rows * columns; the second form may be written to. */
 NURBS_API const double *nurbs_grid_points(const nurbs_grid *grid);
+/** The same to be changed. Borrowed; NULL of NULL. */
 NURBS_API double *nurbs_grid_edit(nurbs_grid *grid);
 
+/** Creates a grid from a file `i,j,x,y,z` (docs/conventions.md, Files). */
 NURBS_API nurbs_status nurbs_grid_read(const char *path, nurbs_grid **grid);
+/** Writes such a file with 17 digits. */
 NURBS_API nurbs_status nurbs_grid_write(const nurbs_grid *grid, const char *path);
 
 /** Samples a surface at u[rows] x v[columns]. */

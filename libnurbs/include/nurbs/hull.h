@@ -30,6 +30,7 @@ extern "C" {
 
 typedef struct nurbs_hull nurbs_hull;
 
+/** How a hull is placed, cut and lightened. */
 typedef struct nurbs_hull_options {
     double level;  /**< z of the still water in the file's axes, m; 0 */
     double draft;  /**< keel draft amidships that sets the level instead, m; NAN: not given */
@@ -46,6 +47,7 @@ typedef struct nurbs_hull_options {
     double reserved[8]; /**< 0: room for members of later releases */
 } nurbs_hull_options;
 
+/** Fills the defaults; nothing when NULL. */
 NURBS_API void nurbs_hull_options_init(nurbs_hull_options *options);
 
 /** Reads a hull: any file that nurbs_patches_read() takes. options NULL: defaults.
@@ -63,6 +65,7 @@ NURBS_API nurbs_status nurbs_hull_create(const nurbs_patches *patches,
 NURBS_API nurbs_status nurbs_hull_create_surfaces(size_t n, const nurbs_surface *const *surfaces,
                                                   const nurbs_hull_options *options,
                                                   nurbs_hull **hull);
+/** Frees a hull; takes NULL. */
 NURBS_API void nurbs_hull_free(nurbs_hull *hull);
 
 /** Creates the design grid of a hull of one patch: points on it that a shape family may move, the
@@ -117,7 +120,9 @@ NURBS_API nurbs_status nurbs_patches_snap(const nurbs_patches *patches, double t
  * part below. Light: the same with redundant knots removed, what a solver takes. Of a rebuilt hull
  * the full surface is the skinned one. */
 NURBS_API const nurbs_patches *nurbs_hull_full(const nurbs_hull *hull);
+/** What of it lies below the still water, cut there. Borrowed; NULL of NULL. */
 NURBS_API const nurbs_patches *nurbs_hull_wetted(const nurbs_hull *hull);
+/** The same with fewer control points, as the solver takes it. Borrowed; NULL of NULL. */
 NURBS_API const nurbs_patches *nurbs_hull_light(const nurbs_hull *hull);
 
 /** Proven bound of the distance of light from wetted, m; 0 if nothing was simplified. */

@@ -16,6 +16,7 @@ extern "C" {
 /** {"format":"nurbs","version":1,"unit":"m","patches":[{"degree","size","knots","points","weights"}]},
  * optional "lpp" and "note". 17 digits: writing and reading restores every bit. */
 NURBS_API nurbs_status nurbs_patches_read_json(const char *path, nurbs_patches **patches);
+/** Writes the NURBS file of docs/conventions.md. */
 NURBS_API nurbs_status nurbs_patches_write_json(const nurbs_patches *patches, const char *path);
 
 /** IGES 5.3 in metres, with transformations 124 and placed subfigures 308/408 (nested); blank
@@ -31,6 +32,7 @@ NURBS_API nurbs_status nurbs_patches_write_json(const nurbs_patches *patches, co
  * The writer writes entities 128 in metres with as many digits as restore every bit. */
 NURBS_API nurbs_status nurbs_patches_read_iges(const char *path, nurbs_patches **patches,
                                                char *report, size_t report_size);
+/** Writes entities 126 and 128 of IGES 5.3, in metres. */
 NURBS_API nurbs_status nurbs_patches_write_iges(const nurbs_patches *patches, const char *path);
 
 /** The same, but every B-spline surface is replaced by patches that end at the loops of its faces:
@@ -67,12 +69,14 @@ NURBS_API nurbs_status nurbs_patches_write_step(const nurbs_patches *patches, co
  * @param n       fills the number of curves; 0 is no error
  * @param curves  creates an array of n curves: nurbs_curves_free() */
 NURBS_API nurbs_status nurbs_curves_read_iges(const char *path, size_t *n, nurbs_curve ***curves);
+/** Frees n curves and their array. */
 NURBS_API void nurbs_curves_free(size_t n, nurbs_curve **curves);
 
 /** For looking: triangles (binary STL) and quads (VTU, ASCII) with `parts` subdivisions a knot
  * span. */
 NURBS_API nurbs_status nurbs_patches_write_stl(const nurbs_patches *patches, int parts,
                                                const char *path);
+/** Writes parts x parts cells a knot span for ParaView. */
 NURBS_API nurbs_status nurbs_patches_write_vtu(const nurbs_patches *patches, int parts,
                                                const char *path);
 
@@ -92,8 +96,10 @@ NURBS_API nurbs_status nurbs_patches_read(const char *path, nurbs_patches **patc
 NURBS_API nurbs_status nurbs_patches_read_reported(const char *path, double tolerance,
                                                    nurbs_patches **patches, char *report,
                                                    size_t report_size);
+/** Writes by the extension of path. */
 NURBS_API nurbs_status nurbs_patches_write(const nurbs_patches *patches, const char *path);
 
+/** Writes one surface as IGES. */
 NURBS_API nurbs_status nurbs_surface_write_iges(const nurbs_surface *surface, const char *path);
 
 #ifdef __cplusplus

@@ -33,10 +33,13 @@ NURBS_API void nurbs_mesh_free(nurbs_mesh *mesh);
  * Errors name the line, or the byte of a binary file. */
 NURBS_API nurbs_status nurbs_mesh_read(const char *path, double unit, nurbs_mesh **mesh);
 
+/** Number of vertices; 0 of NULL. */
 NURBS_API size_t nurbs_mesh_vertices(const nurbs_mesh *mesh);
+/** Number of triangles; 0 of NULL. */
 NURBS_API size_t nurbs_mesh_triangles(const nurbs_mesh *mesh);
 /** Borrowed: x,y,z triples, and 3 indices a triangle, counterclockwise seen from outside. */
 NURBS_API const double *nurbs_mesh_points(const nurbs_mesh *mesh);
+/** Numbers of their vertices, three each. Borrowed; NULL of NULL. */
 NURBS_API const size_t *nurbs_mesh_corners(const nurbs_mesh *mesh);
 
 /** Hydrostatics below z = level, the triangles cut exactly there. A mesh on one side of y = 0 is a

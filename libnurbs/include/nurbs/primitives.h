@@ -46,6 +46,7 @@ typedef struct nurbs_ship_form {
  * over a narrow one. */
 NURBS_API nurbs_status nurbs_ship_form_fast(double length, double beam, double draft,
                                             nurbs_ship_form *form);
+/** Fills the numbers of a ship with a bulbous bow and a narrow transom. */
 NURBS_API nurbs_status nurbs_ship_form_bulb(double length, double beam, double draft,
                                             nurbs_ship_form *form);
 

@@ -29,6 +29,7 @@ enum {
  * @param bound      fills a proven upper bound of that distance, <= tolerance; NULL allowed */
 NURBS_API nurbs_status nurbs_curve_simplify(const nurbs_curve *curve, double tolerance,
                                             nurbs_curve **result, double *bound);
+/** The same for a surface, in both directions. */
 NURBS_API nurbs_status nurbs_surface_simplify(const nurbs_surface *surface, double tolerance,
                                               unsigned flags, nurbs_surface **result,
                                               double *bound);
@@ -54,6 +55,7 @@ NURBS_API nurbs_status nurbs_curve_simplify_geometric(const nurbs_curve *curve, 
  * knot was redundant. Errors: the knot is not that often inside the domain. */
 NURBS_API nurbs_status nurbs_curve_remove(const nurbs_curve *curve, double knot, int times,
                                           nurbs_curve **result, double *bound);
+/** Takes a knot out of one direction as often as times. */
 NURBS_API nurbs_status nurbs_surface_remove(const nurbs_surface *surface, int direction,
                                             double knot, int times, nurbs_surface **result,
                                             double *bound);

@@ -33,6 +33,7 @@ extern "C" {
     X(NURBS_ERROR_NUMERIC, -6, "numerical failure")                                                \
     X(NURBS_ERROR_CANCELLED, -7, "cancelled by the caller")
 
+/** What a call returns: 0 for success, negative for an error. */
 typedef enum nurbs_status {
 #define NURBS_STATUS_ENUM(name, value, text) name = value,
     NURBS_STATUS_LIST(NURBS_STATUS_ENUM)

@@ -25,15 +25,20 @@ NURBS_API nurbs_status nurbs_surface_create(const int degree[2], const size_t si
                                             const double *knots_u, const double *knots_v,
                                             const double *points, const double *weights,
                                             nurbs_surface **surface);
+/** Creates a copy. */
 NURBS_API nurbs_status nurbs_surface_copy(const nurbs_surface *surface, nurbs_surface **copy);
 /** Takes NULL. */
 NURBS_API void nurbs_surface_free(nurbs_surface *surface);
 
+/** Degree in one direction (0: u, 1: v); 0 of NULL. */
 NURBS_API int nurbs_surface_degree(const nurbs_surface *surface, int direction);
+/** Control points in one direction (0: u, 1: v); 0 of NULL. */
 NURBS_API size_t nurbs_surface_size(const nurbs_surface *surface, int direction);
 /** Borrowed from the surface. weights: NULL when polynomial. */
 NURBS_API const double *nurbs_surface_knots(const nurbs_surface *surface, int direction);
+/** Control net, x,y,z triples, u slow and v fast. Borrowed; NULL of NULL. */
 NURBS_API const double *nurbs_surface_points(const nurbs_surface *surface);
+/** Weights in the same order, or NULL when all are 1. Borrowed. */
 NURBS_API const double *nurbs_surface_weights(const nurbs_surface *surface);
 
 /** Derivatives of a point up to an order, by total order and then by the number of v derivatives:

@@ -33,6 +33,7 @@ typedef struct nurbs_joint {
     double reserved[4]; /**< 0: room for members of later releases */
 } nurbs_joint;
 
+/** Edges of patches and where they run together. */
 typedef struct nurbs_topology {
     size_t edges, joints;
     nurbs_edge *edge; /**< [edges], edges = 4 * patches */
