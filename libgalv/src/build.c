@@ -3,6 +3,7 @@
 #include "error.h"
 #include "latent.h"
 #include "shape.h"
+#include "threads.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -21,6 +22,9 @@ void galv_options_init(galv_options *options)
 
 galv_status galv_options_check(const galv_options *options)
 {
+    if (options->threads < 0 || options->threads > MOST_THREADS)
+        return galv_fail(GALV_ERROR_ARGUMENT, "threads is %d, expected 0 to %d", options->threads,
+                         MOST_THREADS);
     if (options->modes == 0 && !(options->variance > 0 && options->variance <= 1))
         return galv_fail(GALV_ERROR_ARGUMENT,
                          "variance to retain %g, expected more than 0, at most 1",
@@ -262,6 +266,7 @@ galv_status galv_build(const galv_shape *shape, size_t npoints, const double *xy
     galv_options_init(&defaults);
     if (!options)
         options = &defaults;
+    THREADS(options->threads);
     if (!shape || !model)
         return galv_fail(GALV_ERROR_ARGUMENT, "shape and result must be given");
     galv_status status = galv_points_check(npoints, xyz);
@@ -311,6 +316,7 @@ galv_status galv_build_data(const galv_data *data, const galv_options *options, 
     galv_options_init(&defaults);
     if (!options)
         options = &defaults;
+    THREADS(options->threads);
     if (!data || (!data->rows && !data->values) || !model || data->count == 0 ||
         data->coordinates == 0)
         return galv_fail(GALV_ERROR_ARGUMENT, "data of at least one sample must be given");

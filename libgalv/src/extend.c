@@ -3,6 +3,7 @@
 #include "error.h"
 #include "latent.h"
 #include "shape.h"
+#include "threads.h"
 
 #include <cblas.h>
 #include <math.h>
@@ -285,6 +286,7 @@ galv_status galv_extend(const galv_model *model, const galv_shape *shape, galv_s
     galv_options_init(&defaults);
     if (!options)
         options = &defaults;
+    THREADS(options->threads);
     if (!model || !shape || !extended)
         return galv_fail(GALV_ERROR_ARGUMENT, "model, shape and result must be given");
     galv_status status = check(model, shape, &sampling, options);

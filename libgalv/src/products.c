@@ -4,6 +4,7 @@
 #include "products.h"
 
 #include "simd.h"
+#include "threads.h"
 
 #include <string.h>
 
@@ -115,7 +116,7 @@ void galv_rows_times(size_t count, size_t n, double alpha, const double *rows, s
 {
     size_t ld = galv_padded(b);
     strips_function *add = choose_strips();
-#pragma omp parallel for schedule(static) if (count * n * ld > ALONE)
+#pragma omp parallel for num_threads(threads_at_hand()) schedule(static) if (count * n * ld > ALONE)
     for (size_t first = 0; first < count; first += SHALLOW) {
         size_t some = count - first < SHALLOW ? count - first : SHALLOW;
         double *out = t + first * ld;
@@ -135,7 +136,7 @@ void galv_rows_add_transposed(size_t count, size_t n, const double *rows, size_t
 {
     size_t ld = galv_padded(b);
     strips_function *add = choose_strips();
-#pragma omp parallel for schedule(static) if (count * n * ld > ALONE)
+#pragma omp parallel for num_threads(threads_at_hand()) schedule(static) if (count * n * ld > ALONE)
     for (size_t a = 0; a < n; a += SLICE)
         for (size_t first = 0; first < count; first += SHALLOW) {
             size_t some = count - first < SHALLOW ? count - first : SHALLOW;

@@ -2,6 +2,7 @@
 #include "error.h"
 #include "shape.h"
 #include "source.h"
+#include "threads.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -106,7 +107,7 @@ static galv_status shape_rows(galv_source *head, size_t first, size_t count, dou
         galv_shape_source_parameters(source, first + r, source->x + r * n);
     bool concurrent = source->plan->concurrent && (!source->extra || source->extra->concurrent);
     size_t task = concurrent ? TASK_ROWS : count;
-#pragma omp parallel for schedule(dynamic) if (concurrent)
+#pragma omp parallel for num_threads(threads_at_hand()) schedule(dynamic) if (concurrent)
     for (size_t begin = 0; begin < count; begin += task) {
         size_t rest = count - begin, bad = 0;
         galv_status status = task_rows(source, first + begin, rest < task ? rest : task,

@@ -3,6 +3,7 @@
 #include "eigen.h"
 #include "error.h"
 #include "products.h"
+#include "threads.h"
 
 #include <cblas.h>
 #include <float.h>
@@ -45,7 +46,7 @@ void galv_sums_add(galv_sums *sums, const galv_stream *stream, size_t count)
     size_t active = stream->active;
     for (size_t r = 0; r < count; r++)
         sums->energy += stream->energy[r];
-#pragma omp parallel for schedule(static) if (count * active > ALONE)
+#pragma omp parallel for num_threads(threads_at_hand()) schedule(static) if (count * active > ALONE)
     for (size_t first = 0; first < active; first += SLICE) {
         size_t last = first + SLICE < active ? first + SLICE : active;
         for (size_t r = 0; r < count; r++)

@@ -1,6 +1,7 @@
 #include "error.h"
 #include "simd.h"
 #include "source.h"
+#include "threads.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -88,7 +89,9 @@ static void discover(galv_stream *stream, size_t count)
 {
     size_t stored = stream->source->stored;
     bool news = false;
-#pragma omp parallel for schedule(static) reduction(|| : news) if (count * stored > ALONE)
+#pragma omp parallel for num_threads(threads_at_hand()) schedule(static)                           \
+    reduction(||                                                                                   \
+              : news) if (count * stored > ALONE)
     for (size_t r = 0; r < count; r++)
         news = news || any_under(stored, stream->raw + r * stored, stream->hidden);
     if (news)
@@ -158,7 +161,7 @@ galv_status galv_stream_read(galv_stream *stream, size_t first, size_t count)
     size_t active = stream->active;
     bool plain = is_plain(stream);
     stream->rows = plain ? stream->raw : stream->packed;
-#pragma omp parallel for schedule(static) if (count * stored > ALONE)
+#pragma omp parallel for num_threads(threads_at_hand()) schedule(static) if (count * stored > ALONE)
     for (size_t r = 0; r < count; r++) {
         if (!plain)
             pack_row(stream, stream->raw + r * stored, stream->packed + r * active);

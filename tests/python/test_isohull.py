@@ -2,6 +2,7 @@
 
 import csv
 import gc
+import multiprocessing
 import os
 import sys
 import tempfile
@@ -112,6 +113,21 @@ class Green(unittest.TestCase):
     def test_refuses_points_above_the_water(self):
         with self.assertRaises(Error):
             igabem.green(1, [0, 0, 1], [0, 0, -1])
+
+
+def spheroid_cw(froude):
+    hull = nurbs.Hull.read(os.path.join(SOURCE, "examples/hulls/spheroid.json"))
+    return igabem.solve(hull, froude).forces["cw"]
+
+
+class Processes(unittest.TestCase):
+    def test_pool_of_forked_processes(self):
+        # The parent has started threads; its children do without.
+        here = spheroid_cw(0.5)
+        with multiprocessing.get_context("fork").Pool(2) as pool:
+            there = pool.map_async(spheroid_cw, [0.5, 0.5]).get(100)
+        for cw in there:
+            self.assertAlmostEqual(cw / here, 1, 9)
 
 
 class Flow(unittest.TestCase):

@@ -92,9 +92,12 @@ typedef struct galv_options {
     uint64_t seed;            /**< of the randomised start block; default 1 */
     galv_progress progress;   /**< default NULL */
     void *progress_user_data; /**< default NULL */
-    double reserved[8];       /**< 0: room for members of later releases */
+    int threads; /**< of loops over points and samples; default 0: as OpenMP decides; at most 1024.
+                    OpenBLAS has its own number */
+    double reserved[7]; /**< 0: room for members of later releases */
 } galv_options;
 
+/** Fills the defaults; nothing when NULL. */
 GALV_API void galv_options_init(galv_options *options);
 
 /**
@@ -232,6 +235,7 @@ GALV_API const double *galv_model_latent(const galv_model *model);
 GALV_API galv_method galv_model_method(const galv_model *model);
 /** Box of the projected samples (m each): least and greatest u_k over the samples. */
 GALV_API const double *galv_model_lower(const galv_model *model);
+/** Upper ends of the same. Borrowed; NULL of NULL. */
 GALV_API const double *galv_model_upper(const galv_model *model);
 /** @} */
 
@@ -247,6 +251,7 @@ typedef struct galv_confidence {
     double reserved[4]; /**< 0: room for members of later releases */
 } galv_confidence;
 
+/** What fresh samples say of the modes; NAN of NULL and of models without samples. */
 GALV_API galv_confidence galv_model_confidence(const galv_model *model);
 
 /**
@@ -296,12 +301,14 @@ GALV_API galv_status galv_backmap(const galv_model *model, const galv_shape *sha
  * over the fields, and made into the same model again, bit for bit.
  * @{ */
 
+/** What a field holds. */
 typedef enum galv_type {
     GALV_TYPE_DOUBLE,
     GALV_TYPE_SIZE, /**< size_t */
     GALV_TYPE_BOOL,
 } galv_type;
 
+/** A named field of a model. */
 typedef struct galv_field {
     const char *name; /**< static: "samples", "vectors", ... */
     galv_type type;   /**< arrays are of doubles */

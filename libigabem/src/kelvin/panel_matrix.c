@@ -1,6 +1,7 @@
 /* Matrices of all pairs of field points and sources or panels, row by row in parallel. */
 #include "core/constants.h"
 #include "core/error.h"
+#include "core/threads.h"
 #include "kelvin/kelvin_green.h"
 #include "kelvin/panel_rule.h"
 
@@ -9,11 +10,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
-enum { BLOCK = 64, MOST_THREADS = 1024 };
+enum { BLOCK = 64 };
 
 /* One call: what it is given and where it puts the results. */
 struct matrix_call {
@@ -156,13 +154,8 @@ static size_t some_rows(const struct matrix_call *call, size_t first, size_t ste
 
 static igabem_status all_rows(const struct matrix_call *call)
 {
-    int threads = call->options.threads;
-#ifdef _OPENMP
-    if (threads == 0)
-        threads = omp_get_max_threads();
-#else
-    threads = 1;
-#endif
+    THREADS(call->options.threads);
+    int threads = threads_at_hand();
     if ((size_t)threads > call->n)
         threads = (int)call->n;
     size_t failed = call->n;

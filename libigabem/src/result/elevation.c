@@ -2,6 +2,7 @@
  * Rankine terms cancel and phi_x = (k0^2/4 pi) Sum q (N_X + W_X) over surface and line sources. */
 #include "core/constants.h"
 #include "core/error.h"
+#include "core/threads.h"
 #include "result/elevation_march.h"
 #include "result/elevation_tree.h"
 #include "result/radiation.h"
@@ -286,6 +287,7 @@ igabem_status igabem_wave_elevation(const igabem_solution *solution, size_t n, c
     igabem_status status = check_request(solution, n, x, y, zeta);
     if (status || n == 0)
         return status;
+    THREADS(solution->options.threads);
     struct line *lines = malloc(n * sizeof *lines);
     if (!lines)
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu points", n);

@@ -2,6 +2,7 @@
  * 6 and 7). */
 #include "core/constants.h"
 #include "core/error.h"
+#include "core/threads.h"
 #include "result/kochin.h"
 #include "result/radiation.h"
 
@@ -101,6 +102,7 @@ igabem_status igabem_forces_compute(const igabem_solution *solution, igabem_forc
 {
     if (!solution || !forces)
         return igabem_fail(IGABEM_ERROR_ARGUMENT, "NULL argument of igabem_forces_compute");
+    THREADS(solution->options.threads);
     const nurbs_hydrostatics *h = &solution->info.hydrostatics;
     *forces = (igabem_forces){.speed = solution->speed,
                               .k0 = solution->k0,

@@ -1,6 +1,7 @@
 /* What zones along the hull contribute to the wave resistance. With H = Sum H_k over zones,
  * |H|^2 = Sum Re(H_k conj H): the interference of two zones goes to both in equal parts. */
 #include "core/error.h"
+#include "core/threads.h"
 #include "result/amplitude.h"
 #include "result/radiation.h"
 
@@ -115,6 +116,7 @@ igabem_status igabem_wave_shares(const igabem_solution *solution, size_t n, cons
             return igabem_fail(IGABEM_ERROR_ARGUMENT,
                                "limit %zu is x = %g m, expected values that decrease from the bow",
                                i, x[i]);
+    THREADS(solution->options.threads);
     struct sources *sources;
     double limit = radiation_limit(solution), length, beam;
     igabem_status status = radiation_sources(solution, RADIATION_AS_SOLVED, limit, n, x, &sources);

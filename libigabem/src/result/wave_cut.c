@@ -9,6 +9,7 @@
  * stationary phase, and transformed along a path on which e^{i s xi} decays. */
 #include "core/constants.h"
 #include "core/error.h"
+#include "core/threads.h"
 #include "result/amplitude.h"
 #include "result/radiation.h"
 
@@ -228,6 +229,7 @@ igabem_status igabem_wave_cut(const igabem_solution *solution, double y, double 
     igabem_status status = check_request(solution, cw);
     if (status)
         return status;
+    THREADS(solution->options.threads);
     double length, beam, k0 = solution->k0, limit = cut_limit(solution);
     radiation_extent(solution, &length, &beam);
     if (isnan(y))

@@ -1,29 +1,18 @@
 #include "solve/group.h"
 
+#include "core/threads.h"
 #include "solve/formulation.h"
 #include "solve/setting.h"
 
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 static double wall_seconds(void)
 {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-static int threads_at_hand(void)
-{
-#ifdef _OPENMP
-    return omp_get_max_threads();
-#else
-    return 1;
-#endif
 }
 
 bool group_has_both(const igabem_options *a, const igabem_options *b)
@@ -124,7 +113,8 @@ igabem_status group_solve(size_t n, igabem_solution *const *solutions, double sh
     struct influence *influence = NULL;
     struct parts parts = {NULL, NULL, NULL, 0.0};
     struct igabem_cost shared_cost = {0};
-    int threads = first->options.threads > 0 ? first->options.threads : threads_at_hand();
+    THREADS(first->options.threads);
+    int threads = threads_at_hand();
     igabem_status status = mesh_create(first->density, &mesh);
     if (status == IGABEM_OK)
         status =
