@@ -17,6 +17,7 @@ module igabem_c
   integer(c_int), parameter :: igabem_formulation_double_body_kochin = 3
   integer(c_int), parameter :: igabem_formulation_hogner = 4
   integer(c_int), parameter :: igabem_formulation_michell = 5
+  integer(c_int), parameter :: igabem_formulation_exterior = 6
   integer(c_int), parameter :: nurbs_ok = 0
   integer(c_int), parameter :: nurbs_error_argument = -1
   integer(c_int), parameter :: nurbs_error_memory = -2
@@ -51,6 +52,7 @@ module igabem_c
     logical(c_bool) :: line_term
     logical(c_bool) :: pressure
     logical(c_bool) :: centre_plane
+    logical(c_bool) :: potential
   end type
 
   type, bind(c) :: nurbs_hydrostatics
@@ -129,7 +131,14 @@ module igabem_c
     integer(c_int) :: threads
     type(c_funptr) :: progress
     type(c_ptr) :: progress_user_data
-    real(c_double) :: reserved(8)
+    real(c_double) :: surface_cells
+    real(c_double) :: surface_rows
+    real(c_double) :: surface_first
+    real(c_double) :: surface_damping
+    real(c_double) :: surface_upstream
+    real(c_double) :: surface_downstream
+    real(c_double) :: surface_side
+    real(c_double) :: reserved(1)
   end type
 
   type, bind(c) :: igabem_cost

@@ -53,7 +53,7 @@ static size_t formulations(const struct solve_request *request, const igabem_hul
     for (int stern = info->transom != IGABEM_TRANSOM_NONE; stern >= 0; stern--)
         for (igabem_formulation f = IGABEM_FORMULATION_AUTO + 1;
              (row = igabem_formulation_info(f)) && n < MOST_FORMULATIONS; f++)
-            if (row->stern_rows == (stern == 1))
+            if (row->stern_rows == (stern == 1) && !row->potential)
                 list[n++] = f;
     return n;
 }
@@ -106,7 +106,8 @@ static igabem_status survey(const struct solve_run *run, const igabem_solution *
     igabem_status status = igabem_wave_shares(solution, 2, limit, result->share);
     if (status)
         return status;
-    if (!igabem_formulation_info(result->options.formulation)->solves || !run->input->half)
+    const igabem_formulation_row *row = igabem_formulation_info(result->options.formulation);
+    if (!row->solves || row->potential || !run->input->half)
         return IGABEM_OK;
     return igabem_wave_cut(solution, NAN, &result->cw_cut);
 }

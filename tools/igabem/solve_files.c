@@ -75,7 +75,7 @@ static int sample_patch(const igabem_solution *solution, const nurbs_surface *su
     out->xyz = malloc(n * 3 * sizeof(double));
     out->velocity = calloc(n * 3, sizeof(double));
     out->cp = calloc(n, sizeof(double));
-    out->sigma = malloc(n * sizeof(double));
+    out->sigma = calloc(n, sizeof(double)); /* 0 where a formulation has no sources */
     if (!out->uv || !out->xyz || !out->velocity || !out->cp || !out->sigma)
         return cli_fail("out of memory");
     for (size_t i = 0; i < out->nu; i++)
@@ -85,9 +85,12 @@ static int sample_patch(const igabem_solution *solution, const nurbs_surface *su
         }
     if (nurbs_surface_eval(surface, 0, n, out->uv, out->xyz))
         return cli_fail("%s", nurbs_last_error());
-    if (igabem_source_density(solution, patch, n, out->uv, out->sigma))
+    const igabem_options *options = igabem_solution_options(solution);
+    const igabem_formulation_row *row = igabem_formulation_info(options->formulation);
+    bool density = options->kernel != IGABEM_KERNEL_KELVIN || !row->potential;
+    if (density && igabem_source_density(solution, patch, n, out->uv, out->sigma))
         return cli_fail("%s", igabem_last_error());
-    if (!igabem_formulation_info(igabem_solution_options(solution)->formulation)->solves)
+    if (!row->solves)
         return CLI_OK; /* no velocity on the hull: zeros */
     if (igabem_surface_velocity(solution, patch, n, out->uv, out->velocity, out->cp))
         return cli_fail("%s", igabem_last_error());

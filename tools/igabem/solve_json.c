@@ -42,6 +42,13 @@ static json_t *options_json(const struct solve_result *result)
     json_result_set(json, "stern_length", real(o->stern_length));
     json_result_set(json, "stern_blend", real(o->stern_blend));
     json_result_set(json, "spectrum_limit", real(o->spectrum_limit));
+    json_result_set(json, "surface_cells", real(o->surface_cells));
+    json_result_set(json, "surface_rows", real(o->surface_rows));
+    json_result_set(json, "surface_first", real(o->surface_first));
+    json_result_set(json, "surface_damping", real(o->surface_damping));
+    json_result_set(json, "surface_upstream", real(o->surface_upstream));
+    json_result_set(json, "surface_downstream", real(o->surface_downstream));
+    json_result_set(json, "surface_side", real(o->surface_side));
     json_result_set(json, "tolerance", real(o->tolerance));
     json_result_set(json, "solver", json_string(solve_solver_name(o->solver)));
     json_result_set(json, "gravity", real(o->gravity));

@@ -29,7 +29,14 @@ static void print_settings(const struct solve_run *run, const struct solve_resul
                                        : "kernel double-body, rigid still water");
         return;
     }
-    printf("  %s: line term %s", formulation->name, line ? "on" : "off");
+    if (formulation->potential)
+        printf("  %s: free surface of %g x %g cells beside the hull, %.3g, %.3g and %.3g lengths "
+               "ahead, "
+               "aft and aside",
+               formulation->name, o->surface_cells, o->surface_rows, o->surface_upstream,
+               o->surface_downstream, o->surface_side);
+    else
+        printf("  %s: line term %s", formulation->name, line ? "on" : "off");
     if (line)
         printf(", stem limit %.4g", o->stem_limit);
     if (run->info.surface_piercing && formulation->kelvin_rows) {

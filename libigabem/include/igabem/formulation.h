@@ -21,7 +21,8 @@ typedef enum igabem_formulation {
     IGABEM_FORMULATION_NEUMANN_KELVIN_STERN,
     IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN,
     IGABEM_FORMULATION_HOGNER,
-    IGABEM_FORMULATION_MICHELL
+    IGABEM_FORMULATION_MICHELL,
+    IGABEM_FORMULATION_EXTERIOR
 } igabem_formulation;
 
 /** A formulation, with the Kelvin kernel. Of IGABEM_FORMULATION_AUTO: what holds whichever it
@@ -37,6 +38,8 @@ typedef struct igabem_formulation_row {
     bool line_term;    /**< Brard's waterline integral radiates, where it is asked for */
     bool pressure;     /**< the pressure on the hull gives a wave resistance */
     bool centre_plane; /**< the sources radiate from the centre plane */
+    bool potential; /**< the unknown is the potential on hull and free surface, by Green's identity
+                       in the water outside; else a source density on the hull alone */
 } igabem_formulation_row;
 
 /** The row of a formulation; NULL if there is no such one, so that counting up from

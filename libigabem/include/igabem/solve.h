@@ -82,7 +82,19 @@ typedef struct igabem_options {
     int threads;              /**< 0: as OpenMP decides; at most 1024 */
     igabem_progress progress; /**< NULL: none */
     void *progress_user_data;
-    double reserved[8]; /**< 0: room for members of later releases */
+
+    /* Of a formulation with a potential, the free surface that it solves on; 0: by the rule given.
+     */
+    double surface_cells;      /**< cells along the hull; 48, over a submerged one 24 */
+    double surface_rows;       /**< rows of cells from the hull outwards; a third of those */
+    double surface_first;      /**< width of the first row as a share of a cell's length; 1 */
+    double surface_damping;    /**< the shortest wave across the stream loses a factor e^-that from
+                                  cell to cell; 0 */
+    double surface_upstream;   /**< extent ahead of the hull as a share of its length; 0.5, over a
+                                  submerged one 2 */
+    double surface_downstream; /**< aft of it; 1 */
+    double surface_side;       /**< from the centre line outwards; 0.75 */
+    double reserved[1];        /**< 0: room for members of later releases */
 } igabem_options;
 
 /** Fills the defaults; nothing when NULL. */
@@ -181,7 +193,7 @@ IGABEM_API const igabem_options *igabem_solution_options(const igabem_solution *
 
 /** Free-surface elevation at n points (x, y), m: zeta = (U/g) phi_x at z = 0, filtered like the
  * solution. Fills zeta[n]; NAN inside the waterplane. Points further from the bow than 3e4/k0 are
- * refused. */
+ * refused, of a formulation with a potential those off the free surface that it solved. */
 IGABEM_API igabem_status igabem_wave_elevation(const igabem_solution *solution, size_t n,
                                                const double *x, const double *y, double *zeta);
 
@@ -191,7 +203,8 @@ IGABEM_API igabem_status igabem_surface_velocity(const igabem_solution *solution
                                                  size_t n, const double *uv, double *velocity,
                                                  double *cp);
 
-/** Source density at n parameters uv of a patch: fills sigma[n], m/s. */
+/** Source density at n parameters uv of a patch: fills sigma[n], m/s. Refused by a formulation with
+ * a potential, which has none. */
 IGABEM_API igabem_status igabem_source_density(const igabem_solution *solution, size_t patch,
                                                size_t n, const double *uv, double *sigma);
 
@@ -210,7 +223,8 @@ IGABEM_API igabem_status igabem_wave_shares(const igabem_solution *solution, siz
 /** C_w from the waves along the line y = const beside a symmetric hull, given as a half or whole
  * (Eggers, Sharma and Ward 1967), m; NAN: a transverse wave length off the side. It holds a part of
  * the local disturbance of relative size e^{-k0 (y - B/2)}, and waves as filtered by the cut-off,
- * which the Kochin function is not. Costs some thousand elevations. */
+ * which the Kochin function is not. Costs some thousand elevations. Refused by a formulation with a
+ * potential, whose free surface ends before the waves have left such a cut. */
 IGABEM_API igabem_status igabem_wave_cut(const igabem_solution *solution, double y, double *cw);
 
 #ifdef __cplusplus

@@ -9,6 +9,7 @@
 #include <string.h>
 
 enum { SHAPE_POINTS = 10 };
+enum { RULE_COLUMNS = 7 }; /* of a regular rule besides the basis: position, normal, area */
 
 /* Points of the classes above the least number that integrates the basis itself. */
 static const int class_points[REGULAR_CLASSES] = {0, 1, 2, 4};
@@ -168,6 +169,19 @@ static void measure_shape(struct influence *influence, size_t p, struct nodes *n
         }
 }
 
+/* The functions of the basis add up to one: their strengths to the node's area. */
+static void fill_normals(const struct nodes *nodes, size_t functions_here,
+                         struct regular_rule *rule)
+{
+    for (size_t i = 0; i < rule->n; i++) {
+        for (size_t c = 0; c < 3; c++)
+            rule->normal[c][i] = nodes->normal[3 * i + c];
+        rule->area[i] = 0.0;
+        for (size_t a = 0; a < functions_here; a++)
+            rule->area[i] += rule->f[i * functions_here + a];
+    }
+}
+
 static void fill_panel(struct influence *influence, size_t p, double *at, struct nodes *nodes)
 {
     const struct panel *panel = &influence->mesh->panel[p];
@@ -183,19 +197,22 @@ static void fill_panel(struct influence *influence, size_t p, double *at, struct
         if (nodes->failed)
             return;
         size_t n = nodes->n;
-        *rule = (struct regular_rule){n, at, at + n, at + 2 * n, at + 3 * n};
+        double *f = at + RULE_COLUMNS * n;
+        *rule = (struct regular_rule){
+            n, at, at + n, at + 2 * n, f, {at + 3 * n, at + 4 * n, at + 5 * n}, at + 6 * n};
         memcpy(rule->x, nodes->x, n * sizeof *at);
         memcpy(rule->y, nodes->y, n * sizeof *at);
         memcpy(rule->z, nodes->z, n * sizeof *at);
-        nodes_fold(nodes, rule->f);
-        at += n * (3 + functions(element));
+        nodes_fold(nodes, f);
+        fill_normals(nodes, functions(element), rule);
+        at += n * (RULE_COLUMNS + functions(element));
     }
 }
 
 static size_t panel_doubles(const struct mesh *mesh, size_t p)
 {
     const struct element *element = &mesh->element[mesh->panel[p].first];
-    return class_nodes(element) * (3 + functions(element));
+    return class_nodes(element) * (RULE_COLUMNS + functions(element));
 }
 
 static igabem_status fill_regular(struct influence *influence)
@@ -213,6 +230,7 @@ static igabem_status fill_regular(struct influence *influence)
     {
         struct nodes nodes;
         nodes_init(&nodes, mesh);
+        nodes.with_normals = true;
         size_t most = (size_t)(SHAPE_POINTS * GAUSS_MAX) * ELEMENT_FUNCTIONS;
         double *f = malloc(most * sizeof *f);
         failed |= !f;

@@ -15,6 +15,7 @@ enum { REGULAR_CLASSES = 4, REGULAR_MOST = 6 + ELEMENT_SIDE / 2 };
 struct regular_rule {
     size_t n;
     double *x, *y, *z, *f;
+    double *normal[3], *area; /* outward unit normals and area of the nodes */
 };
 
 struct influence {

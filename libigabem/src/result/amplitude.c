@@ -62,6 +62,31 @@ static void add_waves(bool symmetric, double a, double b, double k, size_t n, co
     }
 }
 
+/* Adds to h the waves of n dipoles m: the derivative of the wave at the source along m, whose parts
+ * are a m_z, i k m_x and i b m_y. NULL: no such part. */
+VECTOR_MULTIVERSION
+static void add_dipoles(bool symmetric, double a, double b, double k, size_t n, const double *x,
+                        const double *y, const double *z, const double *mx, const double *my,
+                        const double *mz, double h[2])
+{
+    double along = symmetric ? 0.0 : b, across = b - along, factor = symmetric ? 2.0 : 1.0;
+    double re = 0.0, im = 0.0;
+#pragma omp simd reduction(+ : re, im)
+    for (size_t j = 0; j < n; j++) {
+        double s, c, sy, cy, e = z ? factor * vector_exp(a * z[j]) : factor;
+        vector_sincos(k * x[j] + along * y[j], &s, &c);
+        vector_sincos(across * y[j], &sy, &cy);
+        double up = mz ? a * mz[j] * cy : 0.0, ahead = k * mx[j] * cy;
+        double side = my ? b * my[j] : 0.0;
+        up -= symmetric ? side * sy : 0.0; /* i b m_y i sin(b y) */
+        ahead += symmetric ? 0.0 : side;
+        re += e * (up * c - ahead * s);
+        im += e * (up * s + ahead * c);
+    }
+    h[0] += re;
+    h[1] += im;
+}
+
 /* Number of sources above the depth (they are ordered by depth). */
 static size_t shallower(const struct sources *sources, double depth)
 {
@@ -74,6 +99,19 @@ static size_t shallower(const struct sources *sources, double depth)
             high = middle;
     }
     return low;
+}
+
+/* What Green's identity has besides sources: - Int phi dE/dn dS + (1/k0) Oint phi E_x nu_x dl. */
+static void add_potential(const struct sources *s, double a, double b, double k, size_t n,
+                          double h[2])
+{
+    double surface[2] = {0.0, 0.0};
+    add_dipoles(s->symmetric, a, b, k, n, s->x, s->y, s->z, s->dipole[0], s->dipole[1],
+                s->dipole[2], surface);
+    h[0] -= surface[0];
+    h[1] -= surface[1];
+    add_dipoles(s->symmetric, a, b, k, s->n_line, s->line_x, s->line_y, NULL, s->line_dipole, NULL,
+                NULL, h);
 }
 
 void amplitude_sets(size_t sets, const struct sources *const *sources, double k0, double t,
@@ -91,6 +129,8 @@ void amplitude_sets(size_t sets, const struct sources *const *sources, double k0
               places->z, sets, strength, h);
     add_waves(places->symmetric, a, b, k, places->n_line, places->line_x, places->line_y, NULL,
               sets, line_strength, h);
+    for (size_t l = 0; l < sets && places->dipole[0]; l++)
+        add_potential(sources[l], a, b, k, shallower(places, DECAY / a), h[l]);
 }
 
 void amplitude(const struct sources *sources, double k0, double t, double h[2])

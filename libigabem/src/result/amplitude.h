@@ -6,7 +6,7 @@
 
 /* H(t) = Sum q e^{k0 (1+t^2) z + i k0 sqrt(1+t^2) (x + t y)} over surface and line sources and
  * their mirror images: fills h[0] real, h[1] imaginary part. Sources below the reach of angle t
- * (decay e^-40) are not visited. */
+ * (decay e^-40) are not visited. Of a potential Green's identity (docs/theory.md, section 11). */
 void amplitude(const struct sources *sources, double k0, double t, double h[2]);
 
 /* The same for up to AMPLITUDE_SETS sources that differ in their strengths only: fills h[sets][2].

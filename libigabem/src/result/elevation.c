@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/threads.h"
 #include "result/elevation_march.h"
+#include "result/elevation_surface.h"
 #include "result/elevation_tree.h"
 #include "result/radiation.h"
 #include "solve/resolution.h"
@@ -288,6 +289,8 @@ igabem_status igabem_wave_elevation(const igabem_solution *solution, size_t n, c
     if (status || n == 0)
         return status;
     THREADS(solution->options.threads);
+    if (solution->potential)
+        return elevation_surface(solution, n, x, y, zeta);
     struct line *lines = malloc(n * sizeof *lines);
     if (!lines)
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu points", n);

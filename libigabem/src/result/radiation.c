@@ -13,7 +13,7 @@ static void place_sources(const igabem_formulation_row *formulation, double spee
         sources->strength[j] = speed * sources->normal[0][j] * sources->area[j];
     for (size_t j = 0; j < sources->n && formulation->centre_plane; j++)
         sources->y[j] = 0.0;
-    if (!formulation->line_term)
+    if (!formulation->line_term && !formulation->potential)
         sources->n_line = 0;
 }
 
@@ -75,5 +75,7 @@ void radiation_extent(const igabem_solution *solution, double *length, double *b
 double radiation_cutoff_angle(const igabem_solution *solution)
 {
     double angle = solution->options.cutoff_angle;
+    if (solution->potential)
+        return 0.0;
     return isfinite(angle) && angle > 0 ? angle : 0.0;
 }

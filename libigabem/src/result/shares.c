@@ -18,7 +18,8 @@ static size_t zone_of(size_t n, const double *limit, double x)
 }
 
 /* The sources of one zone as a view of its own: x, y, z, strength of the surface and x, y, strength
- * of the line, in the order of the whole. Fills room[4 n + 3 n_line] of the whole. */
+ * of the line, in the order of the whole, and the dipoles of a potential. Fills
+ * room[7 n + 4 n_line] of the whole. */
 static void take_zone(const struct sources *whole, size_t n_limits, const double *limit,
                       size_t zone, double *room, struct sources *part)
 {
@@ -27,15 +28,21 @@ static void take_zone(const struct sources *whole, size_t n_limits, const double
                              .y = room + whole->n,
                              .z = room + 2 * whole->n,
                              .strength = room + 3 * whole->n};
-    part->line_x = room + 4 * whole->n;
+    part->line_x = room + 7 * whole->n;
     part->line_y = part->line_x + whole->n_line;
     part->line_strength = part->line_y + whole->n_line;
+    for (size_t c = 0; c < 3 && whole->dipole[0]; c++)
+        part->dipole[c] = room + (4 + c) * whole->n;
+    if (whole->dipole[0])
+        part->line_dipole = part->line_strength + whole->n_line;
     for (size_t j = 0; j < whole->n; j++) {
         if (zone_of(n_limits, limit, whole->x[j]) != zone)
             continue;
         part->x[part->n] = whole->x[j];
         part->y[part->n] = whole->y[j];
         part->z[part->n] = whole->z[j];
+        for (size_t c = 0; c < 3 && part->dipole[0]; c++)
+            part->dipole[c][part->n] = whole->dipole[c][j];
         part->strength[part->n++] = whole->strength[j];
     }
     for (size_t j = 0; j < whole->n_line; j++) {
@@ -43,6 +50,8 @@ static void take_zone(const struct sources *whole, size_t n_limits, const double
             continue;
         part->line_x[part->n_line] = whole->line_x[j];
         part->line_y[part->n_line] = whole->line_y[j];
+        if (part->line_dipole)
+            part->line_dipole[part->n_line] = whole->line_dipole[j];
         part->line_strength[part->n_line++] = whole->line_strength[j];
     }
 }
@@ -75,7 +84,7 @@ static igabem_status zone_shares(const struct sources *sources, double k0, size_
                                  double *share)
 {
     double *whole = malloc(4 * n_t * sizeof *whole);
-    double *room = malloc((4 * sources->n + 3 * sources->n_line + 1) * sizeof *room);
+    double *room = malloc((7 * sources->n + 4 * sources->n_line + 1) * sizeof *room);
     igabem_status status = whole && room
                                ? IGABEM_OK
                                : igabem_fail(IGABEM_ERROR_MEMORY, "no memory for the wave shares");

@@ -41,6 +41,7 @@ static double at_node(const struct nodes *nodes, const struct element *element, 
  * velocity, indexed like the nodes. */
 struct columns {
     double *strength, *measure, *velocity[3];
+    double *potential; /* NULL: not wanted */
 };
 
 static void evaluate(const igabem_solution *solution, const struct nodes *nodes,
@@ -59,6 +60,8 @@ static void evaluate(const igabem_solution *solution, const struct nodes *nodes,
                 element->rational ? at_node(nodes, element, i, element->net + 3, 4) : 1.0;
             columns->strength[i] = nodes->g[i] * at_node(nodes, element, i, field[0], 1);
             columns->measure[i] = nodes->g[i] * weight;
+            if (columns->potential)
+                columns->potential[i] = at_node(nodes, element, i, field[0], 1) / weight;
             for (size_t c = 0; c < 3 && solution->velocity; c++)
                 columns->velocity[c][i] = at_node(nodes, element, i, field[c + 1], 1) / weight;
         }
@@ -84,13 +87,14 @@ static igabem_status fill_surface(const igabem_solution *solution, const struct 
     size_t n = nodes->n;
     struct order *order = malloc((n + 1) * sizeof *order);
     double *column = malloc((5 * n + 1) * sizeof *column);
-    sources->x = malloc((11 * n + 1) * sizeof *sources->x);
+    sources->x = malloc((14 * n + 1) * sizeof *sources->x);
     if (!order || !column || !sources->x) {
         free(order);
         free(column);
         return no_memory();
     }
-    struct columns columns = {column, column + n, {column + 2 * n, column + 3 * n, column + 4 * n}};
+    struct columns columns = {
+        column, column + n, {column + 2 * n, column + 3 * n, column + 4 * n}, NULL};
     evaluate(solution, nodes, sigma, &columns);
     sources->n = n;
     sources->y = sources->x + n;
@@ -100,6 +104,7 @@ static igabem_status fill_surface(const igabem_solution *solution, const struct 
     for (size_t c = 0; c < 3; c++) {
         sources->normal[c] = sources->area + (c + 1) * n;
         sources->velocity[c] = solution->velocity ? sources->area + (c + 4) * n : NULL;
+        sources->dipole[c] = solution->potential ? sources->area + (c + 7) * n : NULL;
     }
     for (size_t i = 0; i < n; i++)
         order[i] = (struct order){nodes->z[i], i};
@@ -115,7 +120,11 @@ static igabem_status fill_surface(const igabem_solution *solution, const struct 
             sources->normal[c][i] = nodes->normal[3 * k + c];
             if (solution->velocity)
                 sources->velocity[c][i] = columns.velocity[c][k];
+            if (solution->potential)
+                sources->dipole[c][i] = columns.strength[k] * nodes->normal[3 * k + c];
         }
+        if (solution->potential)
+            sources->strength[i] = solution->speed * sources->normal[0][i] * sources->area[i];
     }
     free(order);
     free(column);
@@ -127,7 +136,7 @@ static igabem_status fill_line(const igabem_solution *solution, const struct nod
 {
     size_t n = nodes->n;
     double *measure = malloc((n + 1) * sizeof *measure);
-    sources->line_x = malloc((8 * n + 1) * sizeof *sources->line_x);
+    sources->line_x = malloc((9 * n + 1) * sizeof *sources->line_x);
     if (!measure || !sources->line_x) {
         free(measure);
         return no_memory();
@@ -142,7 +151,10 @@ static igabem_status fill_line(const igabem_solution *solution, const struct nod
     struct columns columns = {
         sources->line_strength,
         measure,
-        {sources->line_velocity[0], sources->line_velocity[1], sources->line_velocity[2]}};
+        {sources->line_velocity[0], sources->line_velocity[1], sources->line_velocity[2]},
+        NULL};
+    if (solution->potential)
+        columns.potential = sources->line_dipole = sources->line_x + 8 * n;
     evaluate(solution, nodes, sigma, &columns);
     for (size_t i = 0; i < n; i++) {
         sources->line_x[i] = nodes->x[i];
@@ -150,6 +162,11 @@ static igabem_status fill_line(const igabem_solution *solution, const struct nod
         sources->line_strength[i] *= solution->options.line_term && k0 > 0 ? 1.0 / k0 : 0.0;
         sources->line_nu_x[i] = nodes->normal[3 * i];
         sources->line_length[i] = nodes->normal[3 * i + 1];
+        if (!solution->potential)
+            continue;
+        double flux = k0 > 0 ? sources->line_nu_x[i] * sources->line_length[i] / k0 : 0.0;
+        sources->line_dipole[i] *= flux;
+        sources->line_strength[i] = -flux * sources->line_velocity[0][i];
     }
     free(measure);
     return IGABEM_OK;

@@ -10,15 +10,19 @@ struct sources {
     bool symmetric; /* every source has a mirror image in y that is not listed */
     size_t n;       /* surface sources, ordered by increasing depth */
     double *x, *y, *z;
-    double *strength;         /* sigma times area, m^3/s */
-    double *area;             /* weight times area element, m^2: sum is the wetted area */
-    double *normal[3];        /* outward unit normal */
-    double *velocity[3];      /* grad phi there, m/s; NULL if the formulation has none */
-    size_t n_line;            /* waterline sources, z = 0 */
-    double *line_x, *line_y;  /* m */
-    double *line_strength;    /* -(1/k0) chi sigma n_x nu_x times length, m^3/s */
-    double *line_length;      /* weight times length, m */
-    double *line_nu_x;        /* x component of the horizontal normal of the waterline */
+    double *strength;        /* sigma times area, m^3/s */
+    double *dipole[3];       /* of a potential: phi n times area, m^4/s, and strength is U n_x times
+                                area; else NULL */
+    double *area;            /* weight times area element, m^2: sum is the wetted area */
+    double *normal[3];       /* outward unit normal */
+    double *velocity[3];     /* grad phi there, m/s; NULL if the formulation has none */
+    size_t n_line;           /* waterline sources, z = 0 */
+    double *line_x, *line_y; /* m */
+    double *line_strength;   /* -(1/k0) chi sigma n_x nu_x times length, m^3/s */
+    double *line_dipole;     /* of a potential: phi nu_x length/k0, m^4/s, and line_strength is
+                                -phi_x nu_x length/k0; else NULL */
+    double *line_length;     /* weight times length, m */
+    double *line_nu_x;       /* x component of the horizontal normal of the waterline */
     double *line_velocity[3]; /* grad phi on the waterline, m/s, or NULL */
 };
 

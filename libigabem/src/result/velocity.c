@@ -36,5 +36,9 @@ igabem_status igabem_source_density(const igabem_solution *solution, size_t patc
     if (patch >= solution->density->patches)
         return igabem_fail(IGABEM_ERROR_ARGUMENT, "patch %zu, expected less than %zu", patch,
                            solution->density->patches);
+    if (solution->potential)
+        return igabem_fail(IGABEM_ERROR_ARGUMENT,
+                           "formulation %s has a potential and no source density",
+                           igabem_formulation_name(solution->options.formulation));
     return density_evaluate(solution->density, patch, 1, solution->sigma, n, uv, sigma);
 }

@@ -1,5 +1,6 @@
 /* What may be wrong with a result, and with a hull. */
 #include "core/constants.h"
+#include "exterior/free_surface.h"
 #include "hull/hull.h"
 #include "solve/solution.h"
 
@@ -81,6 +82,19 @@ static bool coarse_mesh(const struct subject *s, struct sentence *sentence)
                s->forces->unknowns_per_wave, 2.0 * PI / s->forces->k0, fewest_per_wave);
 }
 
+/* A wave that reaches the stern in fewer cells has lost its phase (docs/experiments.md). */
+static bool coarse_surface(const struct subject *s, struct sentence *sentence)
+{
+    if (!s->solution || !s->solution->potential)
+        return false;
+    double wave = 2.0 * PI / s->solution->k0, cells = wave / s->solution->surface->dx;
+    return cells < fewest_per_wave &&
+           say(sentence,
+               "%.2g cells of the free surface along a transverse wave of %.3g m, expected %g at "
+               "least: state more",
+               cells, wave, fewest_per_wave);
+}
+
 static bool strange_speed(const struct subject *s, struct sentence *sentence)
 {
     if (!s->solution || !s->solution->waves || !s->info->surface_piercing)
@@ -135,8 +149,8 @@ static bool pressure_gap(const struct subject *s, struct sentence *sentence)
 }
 
 static bool (*const checks[])(const struct subject *subject, struct sentence *sentence) = {
-    closed_transom, full_bow,         strange_length,    coarse_mesh,
-    strange_speed,  strange_attitude, negative_pressure, pressure_gap,
+    closed_transom,   full_bow,          strange_length, coarse_mesh,    strange_speed,
+    strange_attitude, negative_pressure, pressure_gap,   coarse_surface,
 };
 
 static const char *find(const struct subject *subject, size_t number)

@@ -221,6 +221,11 @@ static igabem_status check_request(const igabem_solution *solution, const double
     if (!solution->waves)
         return igabem_fail(IGABEM_ERROR_ARGUMENT,
                            "this solution has no free surface, expected the Kelvin kernel");
+    if (solution->potential)
+        return igabem_fail(IGABEM_ERROR_ARGUMENT,
+                           "a wave cut runs farther aft than the free surface that formulation %s "
+                           "has solved",
+                           igabem_formulation_name(solution->options.formulation));
     return check_symmetry(solution);
 }
 

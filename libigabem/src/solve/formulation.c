@@ -41,6 +41,13 @@ static const igabem_formulation_row table[] = {
                                     .sentence =
                                         "thin ship: the same sources moved to the centre plane",
                                     .centre_plane = true},
+    [IGABEM_FORMULATION_EXTERIOR] = {.name = "exterior",
+                                     .sentence =
+                                         "potential on hull and free surface outside of it, "
+                                         "1/r alone",
+                                     .solves = true,
+                                     .pressure = true,
+                                     .potential = true},
 };
 enum { ROWS = sizeof table / sizeof *table };
 
@@ -74,6 +81,11 @@ igabem_formulation formulation_choose(const igabem_hull *hull)
 bool formulation_solves(const igabem_options *options)
 {
     return options->kernel != IGABEM_KERNEL_KELVIN || table[options->formulation].solves;
+}
+
+bool formulation_has_potential(const igabem_options *options)
+{
+    return options->kernel == IGABEM_KERNEL_KELVIN && table[options->formulation].potential;
 }
 
 bool formulation_has_image(const igabem_options *options)

@@ -15,4 +15,7 @@ bool formulation_solves(const igabem_options *options);
 bool formulation_has_image(const igabem_options *options);
 bool formulation_has_waves(const igabem_options *options);
 
+/* Whether it solves for the potential on hull and free surface and not for a density. */
+bool formulation_has_potential(const igabem_options *options);
+
 #endif

@@ -2,6 +2,7 @@
 
 #include "core/threads.h"
 #include "solve/formulation.h"
+#include "solve/potential.h"
 #include "solve/setting.h"
 
 #include <stdlib.h>
@@ -104,25 +105,16 @@ static igabem_status solve_settings(struct influence *influence, struct parts *p
     return status;
 }
 
-igabem_status group_solve(size_t n, igabem_solution *const *solutions, double share,
-                          struct progress *progress)
+/* Density by density: those that solve for a source density. */
+static igabem_status solve_densities(struct influence *influence, size_t n,
+                                     igabem_solution *const *solutions, double share,
+                                     struct progress *progress)
 {
     double start = wall_seconds(), done = progress->done;
-    const igabem_solution *first = solutions[0];
-    struct mesh *mesh = NULL;
-    struct influence *influence = NULL;
     struct parts parts = {NULL, NULL, NULL, 0.0};
     struct igabem_cost shared_cost = {0};
-    THREADS(first->options.threads);
-    int threads = threads_at_hand();
-    igabem_status status = mesh_create(first->density, &mesh);
-    if (status == IGABEM_OK)
-        status =
-            influence_create(first->density, mesh, first->options.tolerance, threads, &influence);
-    if (status == IGABEM_OK) {
-        influence->cost = &shared_cost;
-        status = fill_parts(influence, n, solutions, &parts);
-    }
+    influence->cost = &shared_cost;
+    igabem_status status = fill_parts(influence, n, solutions, &parts);
     double common = (wall_seconds() - start) / (double)n;
     if (parts.rankine) {
         share *= 0.5;
@@ -135,6 +127,34 @@ igabem_status group_solve(size_t n, igabem_solution *const *solutions, double sh
     free(parts.rankine);
     free(parts.image);
     free(parts.local);
+    return status;
+}
+
+igabem_status group_solve(size_t n, igabem_solution *const *solutions, double share,
+                          struct progress *progress)
+{
+    double start = wall_seconds();
+    const igabem_solution *first = solutions[0];
+    struct mesh *mesh = NULL;
+    struct influence *influence = NULL;
+    THREADS(first->options.threads);
+    int threads = threads_at_hand();
+    size_t densities = 0, potentials = n;
+    igabem_solution **sorted = malloc(n * sizeof *sorted);
+    igabem_status status = sorted ? mesh_create(first->density, &mesh) : solution_no_memory(n);
+    if (status == IGABEM_OK)
+        status =
+            influence_create(first->density, mesh, first->options.tolerance, threads, &influence);
+    for (size_t m = 0; m < n && status == IGABEM_OK; m++)
+        sorted[solutions[m]->potential ? --potentials : densities++] = solutions[m];
+    double common = (wall_seconds() - start) / (double)n;
+    if (status == IGABEM_OK && densities)
+        status = solve_densities(influence, densities, sorted, share, progress);
+    if (status == IGABEM_OK && densities < n)
+        status = potential_solve(influence, n - densities, sorted + densities, share, progress);
+    for (size_t m = 0; m < n; m++)
+        solutions[m]->seconds += common;
+    free(sorted);
     influence_free(influence);
     mesh_free(mesh);
     return status;

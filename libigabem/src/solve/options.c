@@ -92,6 +92,20 @@ static igabem_status check(const igabem_options *options)
         status = check_positive("cutoff_factor", options->cutoff_factor);
     if (status == IGABEM_OK)
         status = check_range("threads", options->threads, 0, most_threads);
+    if (status == IGABEM_OK && options->surface_cells != 0.0)
+        status = check_range("surface_cells", options->surface_cells, 4.0, 1000.0);
+    if (status == IGABEM_OK && options->surface_rows != 0.0)
+        status = check_range("surface_rows", options->surface_rows, 4.0, 1000.0);
+    if (status == IGABEM_OK && options->surface_first != 0.0)
+        status = check_range("surface_first", options->surface_first, 0.1, 10.0);
+    if (status == IGABEM_OK)
+        status = check_range("surface_damping", options->surface_damping, 0.0, 10.0);
+    if (status == IGABEM_OK && options->surface_upstream != 0.0)
+        status = check_range("surface_upstream", options->surface_upstream, 0.05, 10.0);
+    if (status == IGABEM_OK && options->surface_downstream != 0.0)
+        status = check_range("surface_downstream", options->surface_downstream, 0.05, 10.0);
+    if (status == IGABEM_OK && options->surface_side != 0.0)
+        status = check_range("surface_side", options->surface_side, 0.05, 10.0);
     return status;
 }
 
@@ -154,6 +168,24 @@ static igabem_status choose_cutoff(const igabem_hull *hull, igabem_options *opti
     return IGABEM_OK;
 }
 
+/* The condition at the upstream edge sends an error downstream that counts beside the waves of a
+ * submerged body, which are weak for the disturbance that it makes (docs/experiments.md). */
+static void choose_surface(const igabem_hull *hull, igabem_options *options)
+{
+    if (options->surface_cells == 0.0)
+        options->surface_cells = hull->surface_piercing ? 48.0 : 24.0;
+    if (options->surface_rows == 0.0)
+        options->surface_rows = fmax(4.0, round(options->surface_cells / 3.0));
+    if (options->surface_first == 0.0)
+        options->surface_first = 1.0;
+    if (options->surface_upstream == 0.0)
+        options->surface_upstream = hull->surface_piercing ? 0.5 : 2.0;
+    if (options->surface_downstream == 0.0)
+        options->surface_downstream = 1.0;
+    if (options->surface_side == 0.0)
+        options->surface_side = 0.75;
+}
+
 igabem_status igabem_options_freeze(const igabem_hull *hull, igabem_options *options)
 {
     if (!hull || !options)
@@ -168,6 +200,7 @@ igabem_status igabem_options_freeze(const igabem_hull *hull, igabem_options *opt
     choose_elements(hull, options);
     if (options->formulation == IGABEM_FORMULATION_AUTO)
         options->formulation = formulation_choose(hull);
+    choose_surface(hull, options);
     if (isnan(options->stern_length))
         options->stern_length = stern_by_rule(options);
     options->line_term = options->line_term && hull->surface_piercing;

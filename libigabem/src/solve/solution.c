@@ -1,6 +1,7 @@
 #include "solve/solution.h"
 
 #include "core/error.h"
+#include "exterior/free_surface.h"
 #include "solve/formulation.h"
 
 #include <math.h>
@@ -27,6 +28,7 @@ igabem_status solution_create(const igabem_hull *hull, const igabem_options *opt
     solution->x_aft = hull->hydrostatics.x_aft;
     solution->x_fore = hull->hydrostatics.x_fore;
     solution->waves = options->kernel == IGABEM_KERNEL_KELVIN;
+    solution->potential = formulation_has_potential(&solution->options);
     solution->speed = 1.0;
     solution->condition = solution->residual = NAN;
     if (solution->waves) {
@@ -62,6 +64,8 @@ void igabem_solution_free(igabem_solution *solution)
     if (!solution)
         return;
     density_free(solution->density);
+    free_surface_free(solution->surface);
+    free(solution->surface_phi);
     free(solution->sigma);
     free(solution->velocity);
     free(solution->sigma_lower);

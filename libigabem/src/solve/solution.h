@@ -12,7 +12,10 @@ struct igabem_solution {
     double speed, k0; /* m/s, 1/m; without a Froude number speed 1 and k0 = 0 */
     bool waves;       /* the sources radiate waves: Kochin function and resistance exist */
     struct density *density;
-    double *sigma;       /* [n] coefficients of the density, m/s */
+    double *sigma;  /* [n] coefficients of the density, m/s */
+    bool potential; /* sigma holds the coefficients of the potential on the hull, m^2/s */
+    struct free_surface *surface; /* of a potential: where it was solved; NULL: none */
+    double *surface_phi;          /* its coefficients there */
     double *velocity;    /* [3][n] coefficients of grad phi on the hull, fluid side; NULL: none */
     double *sigma_lower; /* [n] with 0.85 of the cut-off, NULL: not asked for */
     double *sigma_upper; /* [n] with 1.15 */

@@ -370,7 +370,10 @@ void point_node(const struct element *element, double s, double t, double weight
     nodes->x[at] = jet.s[0];
     nodes->y[at] = jet.s[1];
     nodes->z[at] = jet.s[2];
-    nodes->g[at] = weight * jet_area(&jet, 1.0, area) / jet.weight;
+    double size = jet_area(&jet, element->sign, area);
+    nodes->g[at] = weight * size / jet.weight;
+    for (size_t c = 0; c < 3 && nodes->with_normals; c++)
+        nodes->normal[3 * at + c] = area[c] / size;
     bernstein(element->degree[0], s, nodes->bu + at * nodes->side[0], NULL);
     bernstein(element->degree[1], t, nodes->bv + at * nodes->side[1], NULL);
 }

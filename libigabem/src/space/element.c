@@ -133,6 +133,28 @@ void element_gather(const struct element *element, const double *coefficients, d
     memcpy(out, half, m * n * sizeof *out);
 }
 
+void element_slope(const struct element *element, const double *coefficients, const double local[2],
+                   double slope[2])
+{
+    size_t m = (size_t)element->degree[0] + 1, n = (size_t)element->degree[1] + 1;
+    double field[ELEMENT_FUNCTIONS], bu[ELEMENT_SIDE], du[ELEMENT_SIDE], bv[ELEMENT_SIDE],
+        dv[ELEMENT_SIDE], f[3] = {0}, w[3] = {0};
+    element_gather(element, coefficients, field);
+    bernstein(element->degree[0], local[0], bu, du);
+    bernstein(element->degree[1], local[1], bv, dv);
+    for (size_t a = 0; a < m; a++)
+        for (size_t b = 0; b < n; b++) {
+            const double basis[3] = {bu[a] * bv[b], du[a] * bv[b], bu[a] * dv[b]};
+            double weight = element->rational ? element->net[4 * (a * n + b) + 3] : 1.0;
+            for (size_t k = 0; k < 3; k++) {
+                f[k] += basis[k] * field[a * n + b];
+                w[k] += basis[k] * weight;
+            }
+        }
+    for (size_t d = 0; d < 2; d++)
+        slope[d] = (f[d + 1] - f[0] / w[0] * w[d + 1]) / w[0];
+}
+
 /* Solves A x = b for `columns` right-hand sides, n <= ELEMENT_SIDE, partial pivoting; the Bernstein
  * matrix at Chebyshev points is far from singular. */
 static void solve_small(size_t n, double *a, size_t columns, double *b)

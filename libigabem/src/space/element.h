@@ -67,4 +67,8 @@ void element_scatter(const struct element *element, size_t fields, const double 
  * (s,t) is sum B_a(s) B_b(t) out[a][b] / jet.weight. */
 void element_gather(const struct element *element, const double *coefficients, double *out);
 
+/* Derivatives of a field along the local parameters. */
+void element_slope(const struct element *element, const double *coefficients, const double local[2],
+                   double slope[2]);
+
 #endif

@@ -137,8 +137,10 @@ static void ray_nodes(const struct element *element, const struct ray *ray, cons
         nodes->x[n] = jet.s[0];
         nodes->y[n] = jet.s[1];
         nodes->z[n] = jet.s[2];
-        nodes->g[n] =
-            weight * gauss->weight[order][i] * lambda * jet_area(&jet, 1.0, area) / jet.weight;
+        double size = jet_area(&jet, element->sign, area);
+        nodes->g[n] = weight * gauss->weight[order][i] * lambda * size / jet.weight;
+        for (size_t c = 0; c < 3 && nodes->with_normals; c++)
+            nodes->normal[3 * n + c] = area[c] / size;
         bernstein(element->degree[0], at[0] + lambda * direction[0], nodes->bu + n * nodes->side[0],
                   NULL);
         bernstein(element->degree[1], at[1] + lambda * direction[1], nodes->bv + n * nodes->side[1],

@@ -45,7 +45,7 @@ static void plan_models(const igabem_options *frozen, struct verification *rows,
     char label[80];
     for (igabem_formulation f = IGABEM_FORMULATION_AUTO + 1;
          (formulation = igabem_formulation_info(f)); f++) {
-        if (f == frozen->formulation)
+        if (f == frozen->formulation || formulation->potential)
             continue;
         igabem_options other = *frozen;
         other.formulation = f;

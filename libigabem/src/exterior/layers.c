@@ -1,0 +1,226 @@
+#include "exterior/layers.h"
+
+#include "core/constants.h"
+#include "core/error.h"
+#include "core/vector_math.h"
+#include "space/quadrature_near.h"
+#include "space/quadrature_singular.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Reflections of the point that stand for the images of the surface: the flat one needs the first
+ * two. */
+static const double reflection_y[4] = {1, -1, 1, -1}, reflection_z[4] = {1, 1, -1, -1};
+
+static igabem_status no_memory(void)
+{
+    return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for layer potentials");
+}
+
+igabem_status layer_work_create(const struct layer_surface *surface, struct layer_work *work)
+{
+    const struct mesh *mesh = surface->influence->mesh;
+    memset(work, 0, sizeof *work);
+    nodes_init(&work->nodes, mesh);
+    nodes_init(&work->singular, mesh);
+    work->nodes.with_normals = work->singular.with_normals = true;
+    work->far = malloc(mesh->panels * sizeof *work->far);
+    work->class = malloc(mesh->panels * sizeof *work->class);
+    return work->far && work->class ? IGABEM_OK : no_memory();
+}
+
+void layer_work_free(struct layer_work *work)
+{
+    nodes_free(&work->nodes);
+    nodes_free(&work->singular);
+    free(work->far);
+    free(work->class);
+    free(work->kernel);
+}
+
+/* G and dG/dn of nodes, factor included, added. normal: three arrays. */
+VECTOR_INLINE void kernels(const double p[3], double factor, size_t n, const double *x,
+                           const double *y, const double *z, const double *const normal[3],
+                           double *restrict single, double *restrict dipole)
+{
+    const double *nx = normal[0], *ny = normal[1], *nz = normal[2];
+    double scale = -factor / (4.0 * PI);
+    for (size_t i = 0; i < n; i++) {
+        double dx = p[0] - x[i], dy = p[1] - y[i], dz = p[2] - z[i];
+        double square = 1.0 / (dx * dx + dy * dy + dz * dz), inverse = scale * sqrt(square);
+        single[i] += inverse;
+        dipole[i] += inverse * square * (dx * nx[i] + dy * ny[i] + dz * nz[i]);
+    }
+}
+
+/* The same with the normals node by node. */
+VECTOR_MULTIVERSION
+static void node_kernels(const double p[3], double factor, const struct nodes *nodes,
+                         double *restrict single, double *restrict dipole)
+{
+    double scale = -factor / (4.0 * PI);
+    for (size_t i = 0; i < nodes->n; i++) {
+        const double *normal = nodes->normal + 3 * i;
+        double dx = p[0] - nodes->x[i], dy = p[1] - nodes->y[i], dz = p[2] - nodes->z[i];
+        double square = 1.0 / (dx * dx + dy * dy + dz * dz), inverse = scale * sqrt(square);
+        single[i] = inverse;
+        dipole[i] = inverse * square * (dx * normal[0] + dy * normal[1] + dz * normal[2]);
+    }
+}
+
+/* Nodes near one image of the point, or on the point's own element. */
+static igabem_status flush(struct layer_work *work, struct nodes *nodes, const double p[3],
+                           double factor, struct layer_rows *rows)
+{
+    if (!nodes->failed && nodes->n == 0)
+        return IGABEM_OK;
+    if (!nodes->failed && 2 * nodes->n > work->capacity) {
+        free(work->kernel);
+        work->capacity = 2 * nodes->capacity;
+        work->kernel = malloc(work->capacity * sizeof *work->kernel);
+    }
+    if (nodes->failed || !work->kernel)
+        return no_memory();
+    double *single = work->kernel, *dipole = single + nodes->n;
+    node_kernels(p, factor, nodes, single, dipole);
+    if (rows->single)
+        nodes_scatter(nodes, 1, single, nodes->n, rows->single, 0);
+    if (rows->dipole)
+        nodes_scatter(nodes, 1, dipole, nodes->n, rows->dipole, 0);
+    for (size_t b = 0; b < nodes->blocks && rows->dipole; b++)
+        for (size_t i = nodes->block[b].begin; i < nodes->block[b].end; i++) {
+            const struct element *element = nodes->block[b].element;
+            size_t n = (size_t)element->degree[1] + 1;
+            const double *bu = nodes->bu + i * nodes->side[0];
+            const double *bv = nodes->bv + i * nodes->side[1];
+            double weight = 1.0;
+            if (element->rational) {
+                weight = 0.0;
+                for (size_t a = 0; a <= (size_t)element->degree[0]; a++)
+                    for (size_t c = 0; c < n; c++)
+                        weight += bu[a] * bv[c] * element->net[4 * (a * n + c) + 3];
+            }
+            rows->flow += single[i] * nodes->normal[3 * i] * nodes->g[i] * weight;
+        }
+    nodes_clear(nodes);
+    return IGABEM_OK;
+}
+
+static bool is_home(const struct layer_point *point, size_t element)
+{
+    for (size_t h = 0; h < point->homes; h++)
+        if (point->home[h] == element)
+            return true;
+    return false;
+}
+
+static void look(const struct layer_surface *surface, const struct layer_point *point, int images,
+                 const double image[4][3], struct layer_work *work)
+{
+    const struct influence *influence = surface->influence;
+    const struct mesh *mesh = influence->mesh;
+    for (size_t p = 0; p < mesh->panels; p++) {
+        work->far[p] = 0;
+        work->class[p][0] = work->class[p][1] = 0;
+        for (int i = 0; i < images; i++) {
+            const struct near_rule rule = {.point = {image[i][0], image[i][1], image[i][2]},
+                                           .tolerance = influence->tolerance};
+            int class[2] = {work->class[p][0], work -> class[p][1]};
+            if (!regular_class(influence, p, &rule, class))
+                continue;
+            work->far[p] |= (unsigned char)(1u << i);
+            memcpy(work->class[p], class, sizeof class);
+        }
+    }
+    for (size_t h = 0; h < point->homes; h++)
+        for (size_t p = 0; p < mesh->panels; p++)
+            if (point->home[h] >= mesh->panel[p].first &&
+                point->home[h] < mesh->panel[p].first + mesh->panel[p].count)
+                work->far[p] &= (unsigned char)~1u;
+}
+
+VECTOR_MULTIVERSION
+static void add_far(const struct layer_surface *surface, int images, const double image[4][3],
+                    const struct layer_work *work, struct layer_rows *rows)
+{
+    const struct influence *influence = surface->influence;
+    const struct mesh *mesh = influence->mesh;
+    double factor = surface->flat ? 2.0 : 1.0;
+    for (size_t p = 0; p < mesh->panels; p++) {
+        if (!work->far[p])
+            continue;
+        const struct regular_rule *rule = regular_rule_of(influence, p, work->class[p]);
+        const double *const normal[3] = {rule->normal[0], rule->normal[1], rule->normal[2]};
+        double single[REGULAR_MOST * REGULAR_MOST], dipole[REGULAR_MOST * REGULAR_MOST];
+        memset(single, 0, rule->n * sizeof *single);
+        memset(dipole, 0, rule->n * sizeof *dipole);
+        for (int i = 0; i < images; i++)
+            if (work->far[p] >> i & 1)
+                kernels(image[i], factor, rule->n, rule->x, rule->y, rule->z, normal, single,
+                        dipole);
+        const struct element *element = &mesh->element[mesh->panel[p].first];
+        if (rows->single)
+            regular_scatter(element, rule, 1, single, rule->n, rows->single, 0);
+        if (!rows->dipole)
+            continue;
+        regular_scatter(element, rule, 1, dipole, rule->n, rows->dipole, 0);
+        for (size_t k = 0; k < rule->n; k++)
+            rows->flow += single[k] * rule->normal[0][k] * rule->area[k];
+    }
+}
+
+static igabem_status add_near(const struct layer_surface *surface, const struct layer_point *point,
+                              int i, const double image[3], struct layer_work *work,
+                              struct layer_rows *rows)
+{
+    static const double origin[3] = {0.0, 0.0, 0.0};
+    const struct influence *influence = surface->influence;
+    const struct mesh *mesh = influence->mesh;
+    const struct near_rule rule = {.point = {image[0], image[1], image[2]},
+                                   .tolerance = influence->tolerance,
+                                   .gauss = &influence->gauss};
+    for (size_t p = 0; p < mesh->panels; p++) {
+        if (work->far[p] >> i & 1)
+            continue;
+        size_t end = mesh->panel[p].first + mesh->panel[p].count;
+        for (size_t e = mesh->panel[p].first; e < end; e++) {
+            struct domain domain;
+            if (i == 0 && is_home(point, e))
+                continue;
+            domain_whole(&mesh->element[e], &domain);
+            near_nodes(&rule, &domain, &work->nodes);
+        }
+    }
+    double factor = surface->flat ? 2.0 : 1.0;
+    igabem_status status = flush(work, &work->nodes, image, factor, rows);
+    /* Both kernels are weakly singular: the rule's principal value corrects nothing. */
+    for (size_t h = 0; h < point->homes && i == 0; h++) {
+        double unused[3];
+        singular_nodes(&mesh->element[point->home[h]], point->local[h][0], point->local[h][1],
+                       singular_order(influence->tolerance), &influence->gauss, &work->singular,
+                       unused);
+    }
+    return status == IGABEM_OK ? flush(work, &work->singular, origin, factor, rows) : status;
+}
+
+igabem_status layer_add(const struct layer_surface *surface, const struct layer_point *point,
+                        struct layer_work *work, struct layer_rows *rows)
+{
+    double image[4][3];
+    int images = 0;
+    for (int i = 0; i < 4; i++) {
+        if ((i & 1 && !surface->symmetric) || (i & 2 && surface->flat))
+            continue;
+        image[images][0] = point->at[0];
+        image[images][1] = reflection_y[i] * point->at[1];
+        image[images++][2] = reflection_z[i] * point->at[2];
+    }
+    look(surface, point, images, (const double(*)[3])image, work);
+    add_far(surface, images, (const double(*)[3])image, work, rows);
+    igabem_status status = IGABEM_OK;
+    for (int i = 0; i < images && status == IGABEM_OK; i++)
+        status = add_near(surface, point, i, image[i], work, rows);
+    return status;
+}

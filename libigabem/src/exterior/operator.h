@@ -1,0 +1,48 @@
+/* The discrete free-surface operator. phi on the free surface is a biquadratic spline over the
+ * cell coordinates with a coefficient per cell and one beyond the last downstream. Unknown (i, j)
+ * is the coefficient of cell (i + 1, j): this shift is what sends the waves downstream. The others
+ * are upstream     those of i = 1 (phi_x = phi_xx = 0), centre line  the mirror image, waterline a
+ * parabola through phi of the hull's edge, outer edge   linear continuation. Green's identity is
+ * taken at the middles of the cells, and phi_xx from values there as a biquadratic spline of its
+ * own. */
+#ifndef OPERATOR_H
+#define OPERATOR_H
+
+#include "exterior/free_surface.h"
+
+/* Rows of (column, value). */
+struct sparse {
+    size_t rows;
+    size_t *start; /* [rows + 1] */
+    size_t *column;
+    double *value;
+};
+
+void sparse_free(struct sparse *sparse);
+
+struct surface_operator {
+    /* Columns: the unknowns, then phi of the hull's edge at the middles of the cells beside it. */
+    struct sparse value;  /* phi at the middle of a cell */
+    struct sparse second; /* phi_xx there */
+};
+
+/* damping: the shortest wave across the stream loses a factor e^-damping per cell along it. */
+igabem_status operator_create(const struct free_surface *surface, double damping,
+                              struct surface_operator *operator_);
+/* phi of the hull's edge at the middles of the cells beside it, from the coefficients on the hull.
+ */
+igabem_status operator_edge(const struct free_surface *surface, const struct density *density,
+                            const struct mesh *mesh, struct sparse *edge);
+
+/* phi_x at a place of the free surface; phi: the unknowns and after them the hull's edge. */
+double operator_slope(const struct free_surface *surface, const struct free_surface_place *place,
+                      const double *phi);
+
+void operator_free(struct surface_operator *operator_);
+
+/* Turns factors of the coefficients of phi_xx, (nx + 2) (ny + 2) in rows of surface->columns, into
+ * factors of its values at the middles of the cells: that of cell (i, j) is then at
+ * (i + 1) columns + j + 1. scratch has room for nx and ny. */
+void operator_fold(const struct free_surface *surface, double *coefficients, double *scratch);
+
+#endif

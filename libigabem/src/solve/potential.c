@@ -1,0 +1,191 @@
+#include "solve/potential.h"
+
+#include "core/error.h"
+#include "exterior/system.h"
+#include "solve/linear.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+static double wall_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static bool same_surface(const igabem_options *a, const igabem_options *b)
+{
+    return a->surface_cells == b->surface_cells && a->surface_rows == b->surface_rows &&
+           a->surface_first == b->surface_first && a->surface_damping == b->surface_damping &&
+           a->surface_upstream == b->surface_upstream &&
+           a->surface_downstream == b->surface_downstream && a->surface_side == b->surface_side;
+}
+
+/* What the method has not been built for. */
+static igabem_status check(const igabem_solution *solution)
+{
+    if (!solution->density->symmetric)
+        return igabem_fail(IGABEM_ERROR_ARGUMENT, "exterior needs a half hull and its mirror "
+                                                  "image, this one is given whole");
+    if (solution->info.transom != IGABEM_TRANSOM_NONE && solution->info.surface_piercing)
+        return igabem_fail(IGABEM_ERROR_ARGUMENT,
+                           "exterior does not solve hulls with an immersed transom");
+    return IGABEM_OK;
+}
+
+static igabem_status make_surface(const igabem_solution *solution, struct free_surface **surface)
+{
+    const igabem_options *options = &solution->options;
+    struct waterline waterline;
+    igabem_status status =
+        waterline_create(solution->density, solution->x_aft, solution->x_fore, &waterline);
+    double length = waterline.fore - waterline.aft;
+    const struct free_surface_rule rule = {.cells = options->surface_cells,
+                                           .rows = options->surface_rows,
+                                           .first = options->surface_first,
+                                           .upstream = options->surface_upstream * length,
+                                           .downstream = options->surface_downstream * length,
+                                           .side = options->surface_side * length};
+    if (status == IGABEM_OK)
+        return free_surface_create(&rule, &waterline, surface);
+    waterline_free(&waterline);
+    return status;
+}
+
+/* grad phi at the collocation points from phi's derivatives along the surface and U n_x across. */
+static igabem_status fill_velocity(const struct influence *influence, igabem_solution *solution)
+{
+    const struct density *density = solution->density;
+    const struct mesh *mesh = influence->mesh;
+    size_t n = density->n;
+    solution->velocity = malloc(3 * n * sizeof *solution->velocity);
+    if (!solution->velocity)
+        return solution_no_memory(n);
+    for (size_t i = 0; i < n; i++) {
+        size_t patch = density->owner[i], e = mesh->patch_base[patch];
+        double local[2], slope[2], normal[3], step[2][3];
+        while (!element_contains(density, &mesh->element[e], i, local))
+            e++;
+        struct jet jet;
+        element_jet(&mesh->element[e], local[0], local[1], &jet);
+        element_slope(&mesh->element[e], solution->sigma, local, slope);
+        memcpy(normal, density->normal + 3 * i, sizeof normal);
+        memcpy(step[0], jet.ds, sizeof step[0]);
+        memcpy(step[1], jet.dt, sizeof step[1]);
+        double a = 0.0, b = 0.0, d = 0.0;
+        for (size_t c = 0; c < 3; c++) {
+            a += step[0][c] * step[0][c];
+            b += step[0][c] * step[1][c];
+            d += step[1][c] * step[1][c];
+        }
+        double det = a * d - b * b;
+        double along = (d * slope[0] - b * slope[1]) / det;
+        double across = (a * slope[1] - b * slope[0]) / det;
+        for (size_t c = 0; c < 3; c++)
+            solution->velocity[c * n + i] =
+                along * step[0][c] + across * step[1][c] + solution->speed * normal[0] * normal[c];
+    }
+    return density_interpolate(density, 3, solution->velocity);
+}
+
+/* The free surface with its potential, which the hull's edge follows. */
+static igabem_status keep_surface(const struct influence *influence, igabem_solution *solution,
+                                  size_t cells, const double *phi)
+{
+    struct sparse edge = {0};
+    igabem_status status = make_surface(solution, &solution->surface);
+    if (status == IGABEM_OK)
+        status = operator_edge(solution->surface, influence->density, influence->mesh, &edge);
+    if (status == IGABEM_OK) {
+        solution->surface_phi = calloc(cells + edge.rows + 1, sizeof *phi);
+        status = solution->surface_phi ? IGABEM_OK : solution_no_memory(cells);
+    }
+    if (status == IGABEM_OK)
+        memcpy(solution->surface_phi, phi, cells * sizeof *phi);
+    for (size_t k = 0; k < edge.rows && status == IGABEM_OK; k++)
+        for (size_t l = edge.start[k]; l < edge.start[k + 1]; l++)
+            solution->surface_phi[cells + k] += edge.value[l] * solution->sigma[edge.column[l]];
+    sparse_free(&edge);
+    return status;
+}
+
+static igabem_status solve_one(const struct influence *influence,
+                               const struct exterior_system *system, double *rows,
+                               igabem_solution *solution)
+{
+    size_t n = system->n;
+    double scale = 1.0 / solution->k0;
+    double *right = malloc(n * sizeof *right);
+    if (!right)
+        return solution_no_memory(n);
+    for (size_t k = 0; k < n * n; k++)
+        rows[k] = system->fixed[k] - scale * system->wave[k];
+    for (size_t i = 0; i < n; i++)
+        right[i] = solution->speed * system->right[i];
+    const struct matrix matrix = {n, n, rows, influence->threads};
+    igabem_status status = linear_lu(&matrix, right, &solution->condition);
+    solution->options.solver = IGABEM_SOLVER_LU;
+    solution->memory = 3.0 * (double)(n * n * sizeof *rows);
+    if (status == IGABEM_OK) {
+        memcpy(solution->sigma, right, system->hull * sizeof *right);
+        status = keep_surface(influence, solution, n - system->hull, right + system->hull);
+    }
+    if (status == IGABEM_OK)
+        status = fill_velocity(influence, solution);
+    free(right);
+    return status;
+}
+
+/* Those of solutions[n] that have the free surface of the first; they are marked. */
+static igabem_status solve_alike(const struct influence *influence, size_t n,
+                                 igabem_solution *const *solutions, bool *done, double share,
+                                 struct progress *progress)
+{
+    struct exterior_system system = {0};
+    struct free_surface *surface = NULL;
+    double start = wall_seconds(), fraction = progress->done;
+    size_t alike = 0;
+    for (size_t m = 0; m < n; m++)
+        alike += !done[m] && same_surface(&solutions[0]->options, &solutions[m]->options);
+    igabem_status status = make_surface(solutions[0], &surface);
+    if (status == IGABEM_OK)
+        status = exterior_system_create(influence, surface, solutions[0]->options.surface_damping,
+                                        &system);
+    double *rows = status == IGABEM_OK ? malloc(system.n * system.n * sizeof *rows) : NULL;
+    if (status == IGABEM_OK && !rows)
+        status = solution_no_memory(system.n);
+    double common = (wall_seconds() - start) / (double)alike;
+    for (size_t m = 0; m < n && status == IGABEM_OK; m++) {
+        if (done[m] || !same_surface(&solutions[0]->options, &solutions[m]->options))
+            continue;
+        done[m] = true;
+        start = wall_seconds();
+        status = solve_one(influence, &system, rows, solutions[m]);
+        solutions[m]->seconds = common + wall_seconds() - start;
+        fraction += share;
+        if (status == IGABEM_OK)
+            status = progress_report(progress, fraction);
+    }
+    free(rows);
+    free_surface_free(surface);
+    exterior_system_free(&system);
+    return status;
+}
+
+igabem_status potential_solve(struct influence *influence, size_t n,
+                              igabem_solution *const *solutions, double share,
+                              struct progress *progress)
+{
+    bool *done = calloc(n, sizeof *done);
+    igabem_status status = done ? IGABEM_OK : solution_no_memory(n);
+    for (size_t m = 0; m < n && status == IGABEM_OK; m++)
+        status = check(solutions[m]);
+    for (size_t m = 0; m < n && status == IGABEM_OK; m++)
+        if (!done[m])
+            status = solve_alike(influence, n - m, solutions + m, done + m, share, progress);
+    free(done);
+    return status;
+}
