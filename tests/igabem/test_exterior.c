@@ -132,7 +132,7 @@ static void refused(igabem_status status, igabem_status expected, const char *wo
 
 static void test_refusals(void)
 {
-    igabem_hull *hull = wigley_hull(0.1, 0.0625, 8, 2), *wedge = NULL;
+    igabem_hull *hull = wigley_hull(0.1, 0.0625, 8, 2);
     igabem_options options = exterior(0.4, 12.0);
     igabem_solution *solution = solve(hull, &options), *none;
     double x = -5.0, y = 0.2, value;
@@ -156,13 +156,36 @@ static void test_refusals(void)
     CU_ASSERT_PTR_NOT_NULL(strstr(sentence, "cells of the free surface"));
     igabem_solution_free(solution);
     igabem_hull_free(hull);
+}
+
+/* A wedge with a dry transom: the water leaves the rim at its height, also where nothing is solved
+ * at the rim itself, and what the strip holds depends on no number of columns. */
+static void test_transom(void)
+{
     nurbs_surface *surface = wedge_surface(0.05, 0.05);
+    igabem_hull *hull = NULL;
     CU_ASSERT_EQUAL_FATAL(
-        igabem_hull_create((const nurbs_surface *const *)&surface, 1, IGABEM_SYMMETRIC, &wedge),
+        igabem_hull_create((const nurbs_surface *const *)&surface, 1, IGABEM_SYMMETRIC, &hull),
         IGABEM_OK);
-    options = exterior(0.4, 12.0);
-    refused(igabem_solve(wedge, &options, &none), IGABEM_ERROR_ARGUMENT, "transom");
-    igabem_hull_free(wedge);
+    igabem_options options = exterior(0.5, 16.0);
+    options.refine = 8;
+    options.refine_v = 3;
+    options.surface_side = 0.5;
+    double cw[2];
+    for (int k = 0; k < 2; k++) {
+        options.surface_columns = k ? 8.0 : 4.0;
+        igabem_solution *solution = solve(hull, &options);
+        igabem_forces forces = forces_of(solution);
+        cw[k] = forces.cw;
+        double x = -1e-9, y = 0.02, zeta;
+        CU_ASSERT_EQUAL(igabem_wave_elevation(solution, 1, &x, &y, &zeta), IGABEM_OK);
+        CHECK_CLOSE(zeta, -0.03, 1e-6);
+        /* The full-depth transom carries more than the waves do. */
+        CU_ASSERT_TRUE(forces.cw > 0 && forces.cw_transom > 0);
+        igabem_solution_free(solution);
+    }
+    CHECK_RELATIVE(cw[1], cw[0], 0.03);
+    igabem_hull_free(hull);
     nurbs_surface_free(surface);
 }
 

@@ -72,7 +72,8 @@ typedef struct igabem_options {
     double stern_length;  /**< x_s - x_aft of neumann-kelvin-stern as a share of the length, 0 to 1;
                              NAN: 0.35 min(1, (Fr/0.35)^2), below Fr 0.35 this is 2.86 U^2/g */
     double stern_blend;   /**< width of the switch there as a share of the length; 0.014 */
-    double spectrum_limit; /**< largest t of the Kochin integral when surface-piercing; 20. Waves
+    double spectrum_limit; /**< largest t of the Kochin integral when surface-piercing; 20, of which
+                              a formulation with a potential takes 8 at most. Waves
                               whose phase k0 sqrt(1+t^2) (L + t B) along the hull exceeds 3e4 are
                               refused (B/L 0.1, t 20: below Fr 0.045) */
 
@@ -85,16 +86,16 @@ typedef struct igabem_options {
 
     /* Of a formulation with a potential, the free surface that it solves on; 0: by the rule given.
      */
-    double surface_cells;      /**< cells along the hull; 48, over a submerged one 24 */
-    double surface_rows;       /**< rows of cells from the hull outwards; a third of those */
-    double surface_first;      /**< width of the first row as a share of a cell's length; 1 */
-    double surface_damping;    /**< the shortest wave across the stream loses a factor e^-that from
-                                  cell to cell; 0 */
-    double surface_upstream;   /**< extent ahead of the hull as a share of its length; 0.5, over a
-                                  submerged one 2 */
+    double surface_cells;    /**< cells along the hull; 48, over a submerged one 24 */
+    double surface_rows;     /**< rows of cells from the hull outwards; a third of those */
+    double surface_first;    /**< width of the first row as a share of a cell's length; 1 */
+    double surface_damping;  /**< the shortest wave across the stream loses a factor e^-that a cell
+                                along it, of cells as wide as long; 0 */
+    double surface_upstream; /**< extent ahead of the hull as a share of its length; 0.5, over a
+                                submerged one 2 */
     double surface_downstream; /**< aft of it; 1 */
     double surface_side;       /**< from the centre line outwards; 0.75 */
-    double reserved[1];        /**< 0: room for members of later releases */
+    double surface_columns;    /**< of cells aft of the half of a dry transom; 6 */
 } igabem_options;
 
 /** Fills the defaults; nothing when NULL. */

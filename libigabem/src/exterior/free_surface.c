@@ -1,12 +1,13 @@
 #include "exterior/free_surface.h"
 
 #include "core/error.h"
+#include "exterior/spline.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { DEGREE = 3, SIDE = DEGREE + 1 };
+enum { SIDE = SPLINE_SIDE, DEGREE = SIDE - 1 };
 
 static igabem_status no_memory(size_t cells)
 {
@@ -34,10 +35,22 @@ static double growth(double sum, double ny)
     return low;
 }
 
+double free_surface_breadth(const struct free_surface *surface, double x)
+{
+    const struct edge *waterline = &surface->waterline;
+    double at[3];
+    if (!waterline->n || x > waterline->last)
+        return 0.0;
+    if (x < waterline->first)
+        return surface->transom;
+    edge_at(waterline, x, at);
+    return at[1];
+}
+
 double free_surface_y(const struct free_surface *surface, double xi, size_t two_eta)
 {
     double s = surface->offset[two_eta], all = surface->offset[2 * surface->ny];
-    double breadth = waterline_breadth(&surface->waterline, surface->x0 - surface->dx * xi);
+    double breadth = free_surface_breadth(surface, surface->x0 - surface->dx * xi);
     return breadth * (1.0 - s / all) + s;
 }
 
@@ -45,7 +58,7 @@ bool free_surface_locate(const struct free_surface *surface, double x, double y,
                          struct free_surface_place *place)
 {
     double all = surface->offset[2 * surface->ny], dx = surface->dx;
-    double xi = (surface->x0 - x) / dx, breadth = waterline_breadth(&surface->waterline, x);
+    double xi = (surface->x0 - x) / dx, breadth = free_surface_breadth(surface, x);
     double stretch = 1.0 - breadth / all, s = (fabs(y) - breadth) / stretch;
     double excess = surface->growth - 1.0;
     if (!(xi >= 0.0 && xi <= (double)surface->nx && s >= 0.0 && s <= all))
@@ -56,8 +69,8 @@ bool free_surface_locate(const struct free_surface *surface, double x, double y,
     /* Slope of the waterline within the cell, at whose lines it may have its ends. */
     double cell = fmin(floor(xi), (double)surface->nx - 1.0);
     double a = fmax(cell, xi - 0.25), b = fmin(cell + 1.0, xi + 0.25);
-    double slope = (waterline_breadth(&surface->waterline, surface->x0 - dx * a) -
-                    waterline_breadth(&surface->waterline, surface->x0 - dx * b)) /
+    double slope = (free_surface_breadth(surface, surface->x0 - dx * a) -
+                    free_surface_breadth(surface, surface->x0 - dx * b)) /
                    (dx * (b - a));
     *place = (struct free_surface_place){.xi = xi,
                                          .eta = fmin(eta, (double)surface->ny),
@@ -66,73 +79,37 @@ bool free_surface_locate(const struct free_surface *surface, double x, double y,
     return true;
 }
 
-/* Bezier points of the cubic through values at 0, 1/3, 2/3, 1. */
-static void bezier(const double value[SIDE], size_t step, double *out, size_t out_step)
+static const double *fill_net(const struct free_surface *surface, size_t i, size_t j)
 {
-    double a = value[0], b = value[step], c = value[2 * step], d = value[3 * step];
-    out[0] = a;
-    out[out_step] = (-5.0 * a + 18.0 * b - 9.0 * c + 2.0 * d) / 6.0;
-    out[2 * out_step] = (2.0 * a - 9.0 * b + 18.0 * c - 5.0 * d) / 6.0;
-    out[3 * out_step] = d;
-}
-
-/* The three quadratic splines that an inner cell sees, in Bernstein polynomials of degree 3, and no
- * fourth. */
-static const double quadratic[SIDE * SIDE] = {1.0 / 2, 1.0 / 6, 0.0, 0.0, 1.0 / 2, 5.0 / 6,
-                                              5.0 / 6, 1.0 / 2, 0.0, 0.0, 1.0 / 6, 1.0 / 2,
-                                              0.0,     0.0,     0.0, 0.0};
-
-static void fill_net(const struct free_surface *surface, size_t i, size_t j, double *net)
-{
-    double value[SIDE][SIDE], half[SIDE][SIDE], all = surface->offset[2 * surface->ny];
+    double point[SIDE][SIDE][3], all = surface->offset[2 * surface->ny];
     for (int a = 0; a < SIDE; a++) {
         double x = surface->x0 - surface->dx * ((double)i + a / 3.0);
-        double breadth = waterline_breadth(&surface->waterline, x);
+        double breadth = free_surface_breadth(surface, x);
         for (int b = 0; b < SIDE; b++) {
             double s = surface->first * series(surface->growth, (double)j + b / 3.0);
-            value[a][b] = breadth * (1.0 - s / all) + s;
+            point[a][b][0] = x;
+            point[a][b][1] = breadth * (1.0 - s / all) + s;
+            point[a][b][2] = 0.0;
         }
     }
-    for (int a = 0; a < SIDE; a++)
-        bezier(value[a], 1, half[a], 1);
-    for (int b = 0; b < SIDE; b++) {
-        double y[SIDE];
-        bezier(&half[0][b], SIDE, y, 1);
-        for (int a = 0; a < SIDE; a++) {
-            double *h = net + 4 * (a * SIDE + b);
-            h[0] = surface->x0 - surface->dx * ((double)i + a / 3.0);
-            h[1] = y[a];
-            h[2] = 0.0;
-            h[3] = 1.0;
-        }
-    }
+    return spline_net(surface->mesh, i * surface->ny + j, (const double *)point);
 }
 
 static void fill_elements(struct free_surface *surface)
 {
     struct mesh *mesh = surface->mesh;
-    double *net = mesh->storage;
     for (size_t i = 0; i < surface->nx; i++)
-        for (size_t j = 0; j < surface->ny; j++, net += 4 * SIDE * SIDE) {
+        for (size_t j = 0; j < surface->ny; j++) {
             size_t e = i * surface->ny + j;
             struct element *element = &mesh->element[e];
             *element = (struct element){.degree = {DEGREE, DEGREE},
                                         .upper = {1.0, 1.0},
-                                        .extraction = {quadratic, quadratic},
-                                        .net = net,
+                                        .extraction = {spline_quadratic, spline_quadratic},
+                                        .net = fill_net(surface, i, j),
                                         .first = i * surface->columns + j,
                                         .stride = surface->columns,
                                         .sign = 1.0};
-            fill_net(surface, i, j, net);
-            for (size_t c = 0; c < 3; c++) {
-                element->box[0][c] = INFINITY;
-                element->box[1][c] = -INFINITY;
-                for (size_t k = 0; k < SIDE * SIDE; k++) {
-                    element->box[0][c] = fmin(element->box[0][c], net[4 * k + c]);
-                    element->box[1][c] = fmax(element->box[1][c], net[4 * k + c]);
-                }
-            }
-            mesh->panel[e] = (struct panel){.first = e, .count = 1, .upper = {1.0, 1.0}};
+            spline_panel(mesh, e);
             struct jet jet;
             element_jet(element, 0.5, 0.5, &jet);
             surface->point[e] = (struct layer_point){
@@ -140,53 +117,44 @@ static void fill_elements(struct free_surface *surface)
         }
 }
 
-static struct mesh *empty_mesh(size_t cells)
-{
-    struct mesh *mesh = calloc(1, sizeof *mesh);
-    if (!mesh)
-        return NULL;
-    *mesh = (struct mesh){.n = cells,
-                          .panels = cells,
-                          .element = calloc(cells, sizeof *mesh->element),
-                          .panel = calloc(cells, sizeof *mesh->panel),
-                          .storage = malloc(cells * 4 * SIDE * SIDE * sizeof *mesh->storage),
-                          .degree = {DEGREE, DEGREE},
-                          .patch_base = calloc(2, sizeof *mesh->patch_base)};
-    if (mesh->element && mesh->panel && mesh->storage && mesh->patch_base)
-        return mesh;
-    mesh_free(mesh);
-    return NULL;
-}
-
-igabem_status free_surface_create(const struct free_surface_rule *rule, struct waterline *waterline,
+igabem_status free_surface_create(const struct free_surface_rule *rule,
+                                  const struct density *density, const double ends[2],
                                   struct free_surface **result)
 {
     *result = NULL;
-    double length = waterline->fore - waterline->aft;
+    struct edge waterline;
+    igabem_status status =
+        edge_create(density, HULL_EDGE_WATERLINE, 0, ends[1] - ends[0], &waterline);
+    if (status != IGABEM_OK)
+        return status;
+    double aft = waterline.n ? waterline.first : ends[0];
+    double fore = waterline.n ? waterline.last : ends[1], length = fore - aft;
     size_t beside = (size_t)fmax(4.0, round(rule->cells));
     double dx = length / (double)beside, first = rule->first * dx;
-    size_t ahead = (size_t)fmax(4.0, round(rule->upstream / dx));
-    size_t behind = (size_t)fmax(4.0, round(rule->downstream / dx));
+    size_t ahead = (size_t)fmax(4.0, round(rule->upstream * length / dx));
+    size_t behind = (size_t)fmax(4.0, round(rule->downstream * length / dx));
     size_t nx = ahead + beside + behind, ny = (size_t)fmax(4.0, round(rule->rows));
     struct free_surface *surface = calloc(1, sizeof *surface);
     if (!surface) {
-        waterline_free(waterline);
+        edge_free(&waterline);
         return no_memory(nx * ny);
     }
-    *surface = (struct free_surface){.nx = nx,
-                                     .ny = ny,
-                                     .bow = ahead,
-                                     .stern = ahead + beside,
-                                     .x0 = waterline->fore + (double)ahead * dx,
-                                     .dx = dx,
-                                     .first = first,
-                                     .growth = growth(rule->side / first, (double)ny),
-                                     .waterline = *waterline,
-                                     .columns = ny + DEGREE,
-                                     .coefficients = (nx + DEGREE) * (ny + DEGREE),
-                                     .offset = malloc((2 * ny + 1) * sizeof(double)),
-                                     .point = malloc(nx * ny * sizeof(struct layer_point)),
-                                     .mesh = empty_mesh(nx * ny)};
+    *surface = (struct free_surface){
+        .nx = nx,
+        .ny = ny,
+        .bow = ahead,
+        .stern = ahead + beside,
+        .x0 = fore + (double)ahead * dx,
+        .dx = dx,
+        .first = first,
+        .growth = growth(rule->side * length / first, (double)ny),
+        .waterline = waterline,
+        .transom = rule->transom && waterline.n ? waterline.point[0].at[1] : 0.0,
+        .columns = ny + DEGREE,
+        .coefficients = (nx + DEGREE) * (ny + DEGREE),
+        .offset = malloc((2 * ny + 1) * sizeof(double)),
+        .point = malloc(nx * ny * sizeof(struct layer_point)),
+        .mesh = spline_mesh(nx * ny)};
     if (!surface->offset || !surface->point || !surface->mesh) {
         free_surface_free(surface);
         return no_memory(nx * ny);
@@ -202,7 +170,7 @@ void free_surface_free(struct free_surface *surface)
 {
     if (!surface)
         return;
-    waterline_free(&surface->waterline);
+    edge_free(&surface->waterline);
     mesh_free(surface->mesh);
     free(surface->offset);
     free(surface->point);

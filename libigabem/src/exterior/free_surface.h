@@ -6,34 +6,40 @@
 #ifndef FREE_SURFACE_H
 #define FREE_SURFACE_H
 
+#include "exterior/edge.h"
 #include "exterior/layers.h"
-#include "exterior/waterline.h"
 
 struct free_surface_rule {
     double cells;      /* along the body */
     double rows;       /* outwards */
     double first;      /* width of the first row as a share of a cell's length */
-    double upstream;   /* extent ahead of the body, m */
-    double downstream; /* aft of it, m */
-    double side;       /* from the centre line, m */
+    double upstream;   /* extent ahead of the body as a share of its length */
+    double downstream; /* aft of it */
+    double side;       /* from the centre line */
+    bool transom;      /* the stern ends in a dry one */
 };
 
 struct free_surface {
     size_t nx, ny;
-    size_t bow, stern;    /* cells from bow to before stern lie beside the body */
-    double x0, dx;        /* m */
-    double first, growth; /* S(eta) = first (growth^eta - 1)/(growth - 1) */
-    double *offset;       /* [2 ny + 1] S at every half cell */
-    struct waterline waterline;
+    size_t bow, stern;         /* cells from bow to before stern lie beside the body */
+    double x0, dx;             /* m */
+    double first, growth;      /* S(eta) = first (growth^eta - 1)/(growth - 1) */
+    double *offset;            /* [2 ny + 1] S at every half cell */
+    struct edge waterline;     /* empty over a submerged body */
+    double transom;            /* half breadth that the inner edge keeps aft of the stern, m */
     struct mesh *mesh;         /* an element per cell, j fast */
     size_t columns;            /* coefficients of a row: (i, j) is i columns + j */
     size_t coefficients;       /* of the source density, padded for elements of degree 3 */
     struct layer_point *point; /* [nx ny] centres of the cells */
 };
 
-/* Takes the waterline over. */
-igabem_status free_surface_create(const struct free_surface_rule *rule, struct waterline *waterline,
+/* ends: aft and fore, of a submerged body. */
+igabem_status free_surface_create(const struct free_surface_rule *rule,
+                                  const struct density *density, const double ends[2],
                                   struct free_surface **surface);
+/* Half breadth of the hull at x; ahead and aft of it that of the inner edge of the grid. */
+double free_surface_breadth(const struct free_surface *surface, double x);
+
 void free_surface_free(struct free_surface *surface);
 
 /* y in cell coordinates; two_eta = 2 eta is a whole number. */

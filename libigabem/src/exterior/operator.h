@@ -9,16 +9,7 @@
 #define OPERATOR_H
 
 #include "exterior/free_surface.h"
-
-/* Rows of (column, value). */
-struct sparse {
-    size_t rows;
-    size_t *start; /* [rows + 1] */
-    size_t *column;
-    double *value;
-};
-
-void sparse_free(struct sparse *sparse);
+#include "exterior/sparse.h"
 
 struct surface_operator {
     /* Columns: the unknowns, then phi of the hull's edge at the middles of the cells beside it. */

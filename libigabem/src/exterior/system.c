@@ -15,6 +15,7 @@ void exterior_system_free(struct exterior_system *system)
     free(system->fixed);
     free(system->wave);
     free(system->right);
+    free(system->slope);
     *system = (struct exterior_system){0};
 }
 
@@ -47,86 +48,181 @@ static void hull_point(const struct influence *hull, size_t i, struct layer_poin
     }
 }
 
-struct rows_work {
-    struct layer_work hull, surface;
-    double *single; /* over the coefficients of phi_xx, and scratch */
+/* What the rows are made of. */
+enum layer_part { PART_HULL, PART_SURFACE, PART_STRIP, PART_FACE, PARTS };
+
+struct assembly {
+    const struct free_surface *surface;
+    const struct transom *transom; /* NULL: without strip and face */
+    struct layer_surface layer[PARTS];
+    struct influence *influence[PARTS]; /* but the hull's, owned */
+    struct surface_operator operator_;
+    struct sparse edge;
+    size_t parts;
+    size_t doubles; /* of the scratch of a row */
+};
+
+struct row_work {
+    struct layer_work layer[PARTS];
+    double *single, *dipole;
 };
 
 /* Adds factor times a row of the operator, whose last columns stand for the hull's edge. */
-static void add_sparse(const struct exterior_system *system, const struct sparse *sparse,
-                       const struct sparse *edge, size_t c, double factor, double *row)
+static void add_surface(const struct exterior_system *system, const struct assembly *assembly,
+                        const struct sparse *sparse, size_t c, double factor, double *row)
 {
-    size_t cells = system->n - system->hull;
+    const struct sparse *edge = &assembly->edge;
     for (size_t k = sparse->start[c]; k < sparse->start[c + 1]; k++) {
         double value = factor * sparse->value[k];
-        if (sparse->column[k] < cells) {
+        if (sparse->column[k] < system->cells) {
             row[system->hull + sparse->column[k]] += value;
             continue;
         }
-        size_t at = sparse->column[k] - cells;
+        size_t at = sparse->column[k] - system->cells;
         for (size_t l = edge->start[at]; l < edge->start[at + 1]; l++)
             row[edge->column[l]] += value * edge->value[l];
     }
 }
 
-/* One row: layers of the hull and of the free surface, and the operator on the latter. */
-static igabem_status fill_row(const struct layer_surface *hull, const struct layer_surface *flat,
-                              const struct free_surface *surface,
-                              const struct surface_operator *operator_, const struct sparse *edge,
-                              size_t i, struct rows_work *work, struct exterior_system *system)
+static void add_rim(const struct transom *transom, size_t column, double factor, double *row)
 {
-    size_t cells = surface->nx * surface->ny;
-    double *fixed = system->fixed + i * system->n, *wave = system->wave + i * system->n;
-    memset(fixed, 0, system->n * sizeof *fixed);
-    memset(wave, 0, system->n * sizeof *wave);
-    memset(work->single, 0, surface->coefficients * sizeof *work->single);
-    struct layer_point on_hull = {.homes = 0}, on_surface = {.homes = 0};
-    if (i < system->hull) {
-        hull_point(hull->influence, i, &on_hull, fixed);
-        memcpy(on_surface.at, on_hull.at, sizeof on_hull.at);
-    } else {
-        size_t c = i - system->hull;
-        on_surface = surface->point[c];
-        memcpy(on_hull.at, on_surface.at, sizeof on_hull.at);
-        add_sparse(system, &operator_->value, edge, c, 1.0, fixed);
+    const struct sparse *rim = &transom->rim;
+    for (size_t l = rim->start[column]; l < rim->start[column + 1]; l++)
+        row[rim->column[l]] += factor * rim->value[l];
+}
+
+/* The same of the strip, whose last columns stand for the rim's phi and its slope U k0 z. Adds what
+ * of the slope the row holds, over U k0, to *known. */
+static void add_strip(const struct exterior_system *system, const struct transom *transom,
+                      const struct sparse *sparse, size_t c, double factor, double *row,
+                      double *known)
+{
+    size_t unknowns = transom->cells * transom->n;
+    for (size_t k = sparse->start[c]; k < sparse->start[c + 1]; k++) {
+        double value = factor * sparse->value[k];
+        size_t column = sparse->column[k];
+        if (column < unknowns)
+            row[system->hull + system->cells + column] += value;
+        else if (column < unknowns + transom->n)
+            add_rim(transom, column - unknowns, value, row);
+        else
+            *known += value * transom->depth[column - unknowns - transom->n];
     }
-    struct layer_rows dipole = {.dipole = fixed}, single = {.single = work->single};
-    igabem_status status = layer_add(hull, &on_hull, &work->hull, &dipole);
-    if (status == IGABEM_OK)
-        status = layer_add(flat, &on_surface, &work->surface, &single);
-    system->right[i] = dipole.flow;
+}
+
+/* Strengths of the free surface: the layer's factors through the operator. */
+static igabem_status add_waves(const struct assembly *assembly, const struct layer_point *point,
+                               struct row_work *work, const struct exterior_system *system,
+                               double *wave)
+{
+    const struct free_surface *surface = assembly->surface;
+    struct layer_rows rows = {.single = work->single};
+    memset(work->single, 0, surface->coefficients * sizeof *work->single);
+    igabem_status status =
+        layer_add(&assembly->layer[PART_SURFACE], point, &work->layer[PART_SURFACE], &rows);
     operator_fold(surface, work->single, work->single + surface->coefficients);
-    const struct sparse *second = &operator_->second;
-    for (size_t c = 0; c < cells; c++) {
+    for (size_t c = 0; c < system->cells; c++) {
         size_t at = (c / surface->ny + 1) * surface->columns + c % surface->ny + 1;
-        double strength = work->single[at];
-        add_sparse(system, second, edge, c, strength, wave);
+        add_surface(system, assembly, &assembly->operator_.second, c, work->single[at], wave);
     }
     return status;
 }
 
-static igabem_status fill(const struct influence *hull, const struct influence *flat,
-                          const struct free_surface *surface,
-                          const struct surface_operator *operator_, const struct sparse *edge,
+/* Strip and face. */
+static igabem_status add_transom(const struct assembly *assembly, const struct layer_point *point,
+                                 const double at[3], struct row_work *work,
+                                 const struct exterior_system *system, size_t i)
+{
+    const struct transom *transom = assembly->transom;
+    double *fixed = system->fixed + i * system->n, *wave = system->wave + i * system->n;
+    double known = 0.0;
+    struct layer_point off = {.at = {at[0], at[1], at[2]}};
+    struct layer_rows rows = {.single = work->single};
+    memset(work->single, 0, transom->coefficients * sizeof *work->single);
+    igabem_status status = layer_add(&assembly->layer[PART_STRIP], point ? point : &off,
+                                     &work->layer[PART_STRIP], &rows);
+    transom_fold(transom, work->single, work->single + transom->coefficients);
+    for (size_t c = 0; c < transom->cells * transom->n; c++) {
+        double strength = work->single[(c / transom->n + 1) * transom->stride + c % transom->n];
+        add_strip(system, transom, &transom->second, c, strength, wave, &known);
+    }
+    /* - (1/k0) known U k0 on the left. */
+    system->right[i] += known;
+    if (status != IGABEM_OK)
+        return status;
+    struct layer_rows face = {.single = work->single, .dipole = work->dipole};
+    memset(work->single, 0, transom->coefficients * sizeof *work->single);
+    memset(work->dipole, 0, transom->coefficients * sizeof *work->dipole);
+    status = layer_add(&assembly->layer[PART_FACE], &off, &work->layer[PART_FACE], &face);
+    for (size_t j = 0; j < transom->n; j++) {
+        add_rim(transom, j, work->dipole[j], fixed);
+        system->slope[i] += work->single[j] * transom->turn[j] * transom->depth[j];
+    }
+    return status;
+}
+
+static igabem_status fill_row(const struct assembly *assembly, size_t i, struct row_work *work,
+                              struct exterior_system *system)
+{
+    double *fixed = system->fixed + i * system->n, *wave = system->wave + i * system->n;
+    memset(fixed, 0, system->n * sizeof *fixed);
+    memset(wave, 0, system->n * sizeof *wave);
+    system->right[i] = system->slope[i] = 0.0;
+    struct layer_point on_hull = {.homes = 0}, on_surface = {.homes = 0};
+    const struct layer_point *on_strip = NULL;
+    size_t c = i - system->hull;
+    if (i < system->hull) {
+        hull_point(assembly->layer[PART_HULL].influence, i, &on_hull, fixed);
+        memcpy(on_surface.at, on_hull.at, sizeof on_hull.at);
+    } else if (c < system->cells) {
+        on_surface = assembly->surface->point[c];
+        memcpy(on_hull.at, on_surface.at, sizeof on_hull.at);
+        add_surface(system, assembly, &assembly->operator_.value, c, 1.0, fixed);
+    } else {
+        double known = 0.0;
+        c -= system->cells;
+        on_strip = &assembly->transom->point[c];
+        memcpy(on_hull.at, on_strip->at, sizeof on_hull.at);
+        memcpy(on_surface.at, on_strip->at, sizeof on_hull.at);
+        add_strip(system, assembly->transom, &assembly->transom->value, c, 1.0, fixed, &known);
+        system->slope[i] -= known;
+    }
+    struct layer_rows dipole = {.dipole = fixed};
+    igabem_status status =
+        layer_add(&assembly->layer[PART_HULL], &on_hull, &work->layer[PART_HULL], &dipole);
+    system->right[i] += dipole.flow;
+    if (status == IGABEM_OK)
+        status = add_waves(assembly, &on_surface, work, system, wave);
+    if (status == IGABEM_OK && assembly->transom)
+        status = add_transom(assembly, on_strip, on_hull.at, work, system, i);
+    return status;
+}
+
+static igabem_status work_create(const struct assembly *assembly, struct row_work *work)
+{
+    memset(work, 0, sizeof *work);
+    work->single = malloc(2 * assembly->doubles * sizeof *work->single);
+    work->dipole = work->single ? work->single + assembly->doubles : NULL;
+    igabem_status status = work->single ? IGABEM_OK : no_memory(assembly->doubles);
+    for (size_t p = 0; p < assembly->parts && status == IGABEM_OK; p++)
+        status = layer_work_create(&assembly->layer[p], &work->layer[p]);
+    return status;
+}
+
+static igabem_status fill(const struct assembly *assembly, int threads,
                           struct exterior_system *system)
 {
-    const struct layer_surface layer[2] = {{.influence = hull, .symmetric = true},
-                                           {.influence = flat, .symmetric = true, .flat = true}};
-    size_t doubles = surface->coefficients + surface->nx + surface->ny;
     igabem_status result = IGABEM_OK;
-#pragma omp parallel num_threads(hull->threads)
+#pragma omp parallel num_threads(threads)
     {
-        struct rows_work work = {.single = malloc(doubles * sizeof(double))};
-        igabem_status status = work.single ? IGABEM_OK : no_memory(system->n);
-        igabem_status second = layer_work_create(&layer[0], &work.hull);
-        igabem_status third = layer_work_create(&layer[1], &work.surface);
-        status = status ? status : second ? second : third;
+        struct row_work work;
+        igabem_status status = work_create(assembly, &work);
 #pragma omp for schedule(dynamic, 4)
         for (size_t i = 0; i < system->n; i++)
             if (status == IGABEM_OK)
-                status = fill_row(&layer[0], &layer[1], surface, operator_, edge, i, &work, system);
-        layer_work_free(&work.hull);
-        layer_work_free(&work.surface);
+                status = fill_row(assembly, i, &work, system);
+        for (size_t p = 0; p < assembly->parts; p++)
+            layer_work_free(&work.layer[p]);
         free(work.single);
 #pragma omp critical(igabem_exterior)
         if (status != IGABEM_OK)
@@ -135,31 +231,64 @@ static igabem_status fill(const struct influence *hull, const struct influence *
     return result == IGABEM_OK ? result : no_memory(system->n);
 }
 
+static void assembly_free(struct assembly *assembly)
+{
+    for (size_t p = PART_SURFACE; p < PARTS; p++)
+        influence_free(assembly->influence[p]);
+    operator_free(&assembly->operator_);
+    sparse_free(&assembly->edge);
+}
+
+static igabem_status assembly_create(const struct influence *hull,
+                                     const struct free_surface *surface,
+                                     const struct transom *transom, double damping,
+                                     struct assembly *assembly)
+{
+    const struct mesh *mesh[PARTS] = {hull->mesh, surface->mesh, transom ? transom->strip : NULL,
+                                      transom ? transom->face : NULL};
+    *assembly = (struct assembly){.surface = surface, .transom = transom};
+    assembly->parts = transom ? PARTS : PART_STRIP;
+    assembly->doubles = surface->coefficients + surface->nx + surface->ny;
+    if (transom && assembly->doubles < transom->coefficients + transom->cells)
+        assembly->doubles = transom->coefficients + transom->cells;
+    igabem_status status = operator_create(surface, damping, &assembly->operator_);
+    if (status == IGABEM_OK)
+        status = operator_edge(surface, hull->density, hull->mesh, &assembly->edge);
+    for (size_t p = 0; p < assembly->parts && status == IGABEM_OK; p++) {
+        if (p != PART_HULL)
+            status = influence_create(hull->density, mesh[p], hull->tolerance, hull->threads,
+                                      &assembly->influence[p]);
+        assembly->layer[p] =
+            (struct layer_surface){.influence = p == PART_HULL ? hull : assembly->influence[p],
+                                   .symmetric = true,
+                                   .flat = p == PART_SURFACE || p == PART_STRIP};
+    }
+    if (status != IGABEM_OK)
+        assembly_free(assembly);
+    return status;
+}
+
 igabem_status exterior_system_create(const struct influence *hull,
-                                     const struct free_surface *surface, double damping,
+                                     const struct free_surface *surface,
+                                     const struct transom *transom, double damping,
                                      struct exterior_system *system)
 {
-    size_t n = hull->density->n + surface->nx * surface->ny;
+    size_t cells = surface->nx * surface->ny;
+    size_t n = hull->density->n + cells + (transom ? transom->cells * transom->n : 0);
     *system = (struct exterior_system){.n = n,
                                        .hull = hull->density->n,
+                                       .cells = cells,
                                        .fixed = malloc(n * n * sizeof(double)),
                                        .wave = malloc(n * n * sizeof(double)),
-                                       .right = malloc(n * sizeof(double))};
-    if (!system->fixed || !system->wave || !system->right)
+                                       .right = malloc(n * sizeof(double)),
+                                       .slope = malloc(n * sizeof(double))};
+    if (!system->fixed || !system->wave || !system->right || !system->slope)
         return no_memory(n);
-    struct influence *flat = NULL;
-    struct surface_operator operator_ = {0};
-    struct sparse edge = {0};
-    igabem_status status = operator_create(surface, damping, &operator_);
-    if (status == IGABEM_OK)
-        status = operator_edge(surface, hull->density, hull->mesh, &edge);
-    if (status == IGABEM_OK)
-        status =
-            influence_create(hull->density, surface->mesh, hull->tolerance, hull->threads, &flat);
-    if (status == IGABEM_OK)
-        status = fill(hull, flat, surface, &operator_, &edge, system);
-    influence_free(flat);
-    operator_free(&operator_);
-    sparse_free(&edge);
+    struct assembly assembly;
+    igabem_status status = assembly_create(hull, surface, transom, damping, &assembly);
+    if (status != IGABEM_OK)
+        return status;
+    status = fill(&assembly, hull->threads, system);
+    assembly_free(&assembly);
     return status;
 }

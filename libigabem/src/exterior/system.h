@@ -1,21 +1,25 @@
-/* Green's identity on hull and free surface (docs/theory.md, section 11):
- *     phi/2 + Int_S phi dG/dn dS - (1/k0) Int_F G phi_xx dS = U Int_S G n_x dS   on the hull,
- *     phi   + (the same)                                    = (the same)         on z = 0.
- * Unknowns: the coefficients of phi in the density's space, then those of phi on the free surface.
- */
+/* Green's identity on hull, free surface and the face of a dry transom (docs/theory.md, section
+ * 11):
+ *     phi/2 + Int phi dG/dn dS - (1/k0) Int_F G phi_xx dS = Int G phi_n dS      on the hull,
+ *     phi   + (the same)                                  = (the same)         on z = 0,
+ * the first and the last integral over hull and face. Unknowns: the coefficients of phi in the
+ * density's space, then those on the free surface, then those on the strip aft of the transom. */
 #ifndef SYSTEM_H
 #define SYSTEM_H
 
 #include "exterior/operator.h"
+#include "exterior/transom.h"
 
-/* (fixed - wave/k0) q = speed right, row by row. */
+/* (fixed - wave/k0) q = U (right + k0 slope), row by row. */
 struct exterior_system {
-    size_t n, hull; /* unknowns, and those on the hull */
-    double *fixed, *wave, *right;
+    size_t n, hull, cells; /* unknowns, those on the hull and on the free surface */
+    double *fixed, *wave, *right, *slope;
 };
 
+/* transom: NULL without one. */
 igabem_status exterior_system_create(const struct influence *hull,
-                                     const struct free_surface *surface, double damping,
+                                     const struct free_surface *surface,
+                                     const struct transom *transom, double damping,
                                      struct exterior_system *system);
 void exterior_system_free(struct exterior_system *system);
 

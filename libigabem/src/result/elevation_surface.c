@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "exterior/operator.h"
+#include "exterior/transom.h"
 
 #include <math.h>
 
@@ -17,6 +18,9 @@ igabem_status elevation_surface(const igabem_solution *solution, size_t n, const
         zeta[i] = NAN;
         if (free_surface_locate(surface, x[i], y[i], &place))
             zeta[i] = scale * operator_slope(surface, &place, solution->surface_phi);
+        else if (solution->transom && x[i] <= solution->transom->x && x[i] >= aft &&
+                 fabs(y[i]) <= solution->transom->breadth)
+            zeta[i] = scale * transom_slope(solution->transom, x[i], y[i], solution->strip_phi);
         else if (!(x[i] >= aft && x[i] <= surface->x0 && fabs(y[i]) <= side))
             return igabem_fail(IGABEM_ERROR_ARGUMENT,
                                "point %zu is (%g, %g), off the free surface that was solved: x %g "

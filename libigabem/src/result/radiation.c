@@ -1,8 +1,10 @@
 #include "result/radiation.h"
 
 #include "core/error.h"
+#include "exterior/transom.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 /* Each side's sources U n_x dS where nothing is solved, and those of a thin ship moved to y = 0
  * together with their mirror image, where it has no waterline. */
@@ -17,6 +19,83 @@ static void place_sources(const igabem_formulation_row *formulation, double spee
         sources->n_line = 0;
 }
 
+/* phi of the rim of a dry transom and its slope at y. */
+static igabem_status rim_values(const igabem_solution *solution, double y, double *phi,
+                                double *slope)
+{
+    const struct edge *rim = &solution->transom->rim_edge;
+    size_t patch;
+    double uv[2], at[3];
+    igabem_status status = edge_locate(rim, solution->density, y, &patch, uv);
+    edge_at(rim, y, at);
+    *slope = solution->speed * solution->k0 * fmin(0.0, at[2]);
+    return status ? status
+                  : density_evaluate(solution->density, patch, 1, solution->sigma, 1, uv, phi);
+}
+
+/* Part p of the face and of its upper edge, where nu = -e_x, by a rule of so many points. */
+enum { ACROSS = 3, UP = 12 };
+
+static igabem_status fill_face(const igabem_solution *solution, size_t p, const struct gauss *gauss,
+                               struct nodes *nodes, double (*surface)[7], double (*line)[4])
+{
+    const struct transom *transom = solution->transom;
+    const double whole[4] = {0.0, 1.0, 0.0, 1.0};
+    const int points[2] = {ACROSS, UP};
+    double width = transom->breadth / (double)transom->face->n;
+    struct domain domain;
+    domain_whole(&transom->face->element[p], &domain);
+    nodes_clear(nodes);
+    cell_nodes(&domain, whole, points, gauss, nodes);
+    if (nodes->failed)
+        return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for the face of the transom");
+    for (size_t i = 0; i < ACROSS; i++) {
+        double y = width * ((double)p + gauss->node[ACROSS][i]), phi, slope;
+        double dl = width * gauss->weight[ACROSS][i] / solution->k0;
+        igabem_status status = rim_values(solution, y, &phi, &slope);
+        if (status)
+            return status;
+        line[i][0] = transom->x;
+        line[i][1] = y;
+        line[i][2] = dl * slope;
+        line[i][3] = -dl * phi;
+        for (size_t k = i; k < nodes->n; k += ACROSS) {
+            const double *normal = nodes->normal + 3 * k;
+            surface[k][0] = nodes->x[k];
+            surface[k][1] = nodes->y[k];
+            surface[k][2] = nodes->z[k];
+            surface[k][3] = normal[0] * slope * nodes->g[k];
+            for (size_t c = 0; c < 3; c++)
+                surface[k][4 + c] = phi * normal[c] * nodes->g[k];
+        }
+    }
+    return IGABEM_OK;
+}
+
+static igabem_status add_face(const igabem_solution *solution, struct sources *sources)
+{
+    size_t parts = solution->transom->face->n;
+    struct gauss gauss;
+    struct nodes nodes;
+    nodes_init(&nodes, solution->transom->face);
+    nodes.with_normals = true;
+    double(*surface)[7] = malloc(parts * ACROSS * UP * sizeof *surface);
+    double(*line)[4] = malloc(parts * ACROSS * sizeof *line);
+    igabem_status status =
+        surface && line ? gauss_fill(&gauss)
+                        : igabem_fail(IGABEM_ERROR_MEMORY, "no memory for the face of the transom");
+    for (size_t p = 0; p < parts && status == IGABEM_OK; p++)
+        status =
+            fill_face(solution, p, &gauss, &nodes, surface + p * ACROSS * UP, line + p * ACROSS);
+    if (status == IGABEM_OK)
+        status = sources_append(sources, parts * ACROSS * UP, (const double(*)[7])surface,
+                                parts * ACROSS, (const double(*)[4])line);
+    free(surface);
+    free(line);
+    nodes_free(&nodes);
+    return status;
+}
+
 igabem_status radiation_sources(const igabem_solution *solution, enum radiation_cutoff cutoff,
                                 double t_max, size_t cuts, const double *cut,
                                 struct sources **sources)
@@ -29,8 +108,18 @@ igabem_status radiation_sources(const igabem_solution *solution, enum radiation_
     if (status)
         return status;
     place_sources(solution->formulation, solution->speed, *sources);
-    return IGABEM_OK;
+    if (solution->transom) {
+        status = add_face(solution, *sources);
+        if (status)
+            sources_free(*sources);
+    }
+    return status;
 }
+
+/* In Green's identity the surface and its edges cancel at large angles, but for what the mesh does
+ * not resolve: on transom hulls at Fr 0.28 t 8 to 20 would add a quarter, on a Wigley hull 0.05 %.
+ */
+static const double most_potential_angle = 8.0;
 
 /* Upper bound of z: the control points' (the hull lies in their hull). */
 static double top(const igabem_solution *solution)
@@ -50,6 +139,8 @@ double radiation_limit(const igabem_solution *solution)
 {
     const double decay = 40.0; /* of |H|^2 */
     double limit = solution->options.spectrum_limit, depth = -top(solution);
+    if (solution->potential)
+        limit = fmin(limit, most_potential_angle);
     if (solution->info.surface_piercing || !(depth > 0))
         return limit;
     return sqrt(decay / (2.0 * solution->k0 * depth));

@@ -269,3 +269,55 @@ done:
     *result = sources;
     return IGABEM_OK;
 }
+
+static int row_by_depth(const void *a, const void *b)
+{
+    double za = ((const double *)a)[2], zb = ((const double *)b)[2];
+    return (za < zb) - (za > zb);
+}
+
+igabem_status sources_append(struct sources *sources, size_t m, const double (*surface)[7],
+                             size_t l, const double (*line)[4])
+{
+    size_t n = sources->n + m, n_line = sources->n_line + l;
+    double(*row)[7] = malloc((n + 1) * sizeof *row);
+    double *x = malloc((7 * n + 1) * sizeof *x), *line_x = malloc((4 * n_line + 1) * sizeof *x);
+    if (!row || !x || !line_x) {
+        free(row);
+        free(x);
+        free(line_x);
+        return no_memory();
+    }
+    const double *const old[7] = {sources->x,        sources->y,         sources->z,
+                                  sources->strength, sources->dipole[0], sources->dipole[1],
+                                  sources->dipole[2]};
+    const double *const old_line[4] = {sources->line_x, sources->line_y, sources->line_strength,
+                                       sources->line_dipole};
+    for (size_t c = 0; c < 7; c++)
+        for (size_t i = 0; i < n; i++)
+            row[i][c] = i < sources->n ? old[c][i] : surface[i - sources->n][c];
+    qsort(row, n, sizeof *row, row_by_depth);
+    for (size_t c = 0; c < 7; c++)
+        for (size_t i = 0; i < n; i++)
+            x[c * n + i] = row[i][c];
+    for (size_t c = 0; c < 4; c++)
+        for (size_t i = 0; i < n_line; i++)
+            line_x[c * n_line + i] =
+                i < sources->n_line ? old_line[c][i] : line[i - sources->n_line][c];
+    free(row);
+    free(sources->x);
+    free(sources->line_x);
+    *sources = (struct sources){.symmetric = sources->symmetric,
+                                .n = n,
+                                .x = x,
+                                .y = x + n,
+                                .z = x + 2 * n,
+                                .strength = x + 3 * n,
+                                .dipole = {x + 4 * n, x + 5 * n, x + 6 * n},
+                                .n_line = n_line,
+                                .line_x = line_x,
+                                .line_y = line_x + n_line,
+                                .line_strength = line_x + 2 * n_line,
+                                .line_dipole = line_x + 3 * n_line};
+    return IGABEM_OK;
+}

@@ -37,6 +37,12 @@ struct source_rule {
 /* sigma: coefficients of the density, NULL for those of the solution. */
 igabem_status sources_create(const igabem_solution *solution, const struct source_rule *wanted,
                              const double *sigma, struct sources **sources);
+/* Adds m surface sources of a potential, and l of its waterline: columns of x, y, z, strength and
+ * dipole[3], and of x, y, strength and dipole; the surface stays ordered by depth. Only what
+ * radiates is filled. */
+igabem_status sources_append(struct sources *sources, size_t m, const double (*surface)[7],
+                             size_t l, const double (*line)[4]);
+
 void sources_free(struct sources *sources);
 
 #endif

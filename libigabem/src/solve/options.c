@@ -106,6 +106,8 @@ static igabem_status check(const igabem_options *options)
         status = check_range("surface_downstream", options->surface_downstream, 0.05, 10.0);
     if (status == IGABEM_OK && options->surface_side != 0.0)
         status = check_range("surface_side", options->surface_side, 0.05, 10.0);
+    if (status == IGABEM_OK && options->surface_columns != 0.0)
+        status = check_range("surface_columns", options->surface_columns, 2.0, 1000.0);
     return status;
 }
 
@@ -184,6 +186,8 @@ static void choose_surface(const igabem_hull *hull, igabem_options *options)
         options->surface_downstream = 1.0;
     if (options->surface_side == 0.0)
         options->surface_side = 0.75;
+    if (options->surface_columns == 0.0)
+        options->surface_columns = 6.0;
 }
 
 igabem_status igabem_options_freeze(const igabem_hull *hull, igabem_options *options)

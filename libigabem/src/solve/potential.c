@@ -21,7 +21,8 @@ static bool same_surface(const igabem_options *a, const igabem_options *b)
     return a->surface_cells == b->surface_cells && a->surface_rows == b->surface_rows &&
            a->surface_first == b->surface_first && a->surface_damping == b->surface_damping &&
            a->surface_upstream == b->surface_upstream &&
-           a->surface_downstream == b->surface_downstream && a->surface_side == b->surface_side;
+           a->surface_downstream == b->surface_downstream && a->surface_side == b->surface_side &&
+           a->surface_columns == b->surface_columns;
 }
 
 /* What the method has not been built for. */
@@ -30,29 +31,35 @@ static igabem_status check(const igabem_solution *solution)
     if (!solution->density->symmetric)
         return igabem_fail(IGABEM_ERROR_ARGUMENT, "exterior needs a half hull and its mirror "
                                                   "image, this one is given whole");
-    if (solution->info.transom != IGABEM_TRANSOM_NONE && solution->info.surface_piercing)
+    if (solution->info.transom == IGABEM_TRANSOM_CLOSED)
         return igabem_fail(IGABEM_ERROR_ARGUMENT,
-                           "exterior does not solve hulls with an immersed transom");
+                           "exterior takes a transom as dry: leave out the patch that closes it");
     return IGABEM_OK;
 }
 
-static igabem_status make_surface(const igabem_solution *solution, struct free_surface **surface)
+/* The free surface, and the strip aft of a transom. */
+static igabem_status make_surface(const struct influence *influence,
+                                  const igabem_solution *solution, struct free_surface **surface,
+                                  struct transom **transom)
 {
     const igabem_options *options = &solution->options;
-    struct waterline waterline;
-    igabem_status status =
-        waterline_create(solution->density, solution->x_aft, solution->x_fore, &waterline);
-    double length = waterline.fore - waterline.aft;
+    const double ends[2] = {solution->x_aft, solution->x_fore};
+    bool dry = solution->info.surface_piercing && solution->info.transom == IGABEM_TRANSOM_OPEN;
     const struct free_surface_rule rule = {.cells = options->surface_cells,
                                            .rows = options->surface_rows,
                                            .first = options->surface_first,
-                                           .upstream = options->surface_upstream * length,
-                                           .downstream = options->surface_downstream * length,
-                                           .side = options->surface_side * length};
-    if (status == IGABEM_OK)
-        return free_surface_create(&rule, &waterline, surface);
-    waterline_free(&waterline);
-    return status;
+                                           .upstream = options->surface_upstream,
+                                           .downstream = options->surface_downstream,
+                                           .side = options->surface_side,
+                                           .transom = dry};
+    *transom = NULL;
+    igabem_status status = free_surface_create(&rule, solution->density, ends, surface);
+    if (status != IGABEM_OK || !dry)
+        return status;
+    const struct free_surface *s = *surface;
+    return transom_create(solution->density, influence->mesh, ends[1] - ends[0],
+                          s->x0 - s->dx * (double)s->stern, s->transom, s->dx, s->nx - s->stern,
+                          s->transom / options->surface_columns, transom);
 }
 
 /* grad phi at the collocation points from phi's derivatives along the surface and U n_x across. */
@@ -91,23 +98,46 @@ static igabem_status fill_velocity(const struct influence *influence, igabem_sol
     return density_interpolate(density, 3, solution->velocity);
 }
 
-/* The free surface with its potential, which the hull's edge follows. */
+/* Adds the hull's phi on an edge. */
+static void edge_values(const struct sparse *edge, const double *hull, double *phi)
+{
+    for (size_t k = 0; k < edge->rows; k++) {
+        phi[k] = 0.0;
+        for (size_t l = edge->start[k]; l < edge->start[k + 1]; l++)
+            phi[k] += edge->value[l] * hull[edge->column[l]];
+    }
+}
+
+/* The free surface with its potential, which the hull's edges follow. */
 static igabem_status keep_surface(const struct influence *influence, igabem_solution *solution,
-                                  size_t cells, const double *phi)
+                                  const double *phi)
 {
     struct sparse edge = {0};
-    igabem_status status = make_surface(solution, &solution->surface);
+    igabem_status status =
+        make_surface(influence, solution, &solution->surface, &solution->transom);
     if (status == IGABEM_OK)
         status = operator_edge(solution->surface, influence->density, influence->mesh, &edge);
+    const struct transom *transom = solution->transom;
+    size_t cells = 0, strip = transom ? transom->cells * transom->n : 0;
     if (status == IGABEM_OK) {
-        solution->surface_phi = calloc(cells + edge.rows + 1, sizeof *phi);
-        status = solution->surface_phi ? IGABEM_OK : solution_no_memory(cells);
+        cells = solution->surface->nx * solution->surface->ny;
+        solution->surface_phi = malloc((cells + edge.rows + 1) * sizeof *phi);
+        if (transom)
+            solution->strip_phi = malloc((strip + 2 * transom->n) * sizeof *phi);
+        if (!solution->surface_phi || (transom && !solution->strip_phi))
+            status = solution_no_memory(cells);
     }
-    if (status == IGABEM_OK)
+    if (status == IGABEM_OK) {
         memcpy(solution->surface_phi, phi, cells * sizeof *phi);
-    for (size_t k = 0; k < edge.rows && status == IGABEM_OK; k++)
-        for (size_t l = edge.start[k]; l < edge.start[k + 1]; l++)
-            solution->surface_phi[cells + k] += edge.value[l] * solution->sigma[edge.column[l]];
+        edge_values(&edge, solution->sigma, solution->surface_phi + cells);
+    }
+    if (status == IGABEM_OK && transom) {
+        memcpy(solution->strip_phi, phi + cells, strip * sizeof *phi);
+        edge_values(&transom->rim, solution->sigma, solution->strip_phi + strip);
+        for (size_t j = 0; j < transom->n; j++)
+            solution->strip_phi[strip + transom->n + j] =
+                solution->speed * solution->k0 * transom->depth[j];
+    }
     sparse_free(&edge);
     return status;
 }
@@ -124,14 +154,14 @@ static igabem_status solve_one(const struct influence *influence,
     for (size_t k = 0; k < n * n; k++)
         rows[k] = system->fixed[k] - scale * system->wave[k];
     for (size_t i = 0; i < n; i++)
-        right[i] = solution->speed * system->right[i];
+        right[i] = solution->speed * (system->right[i] + solution->k0 * system->slope[i]);
     const struct matrix matrix = {n, n, rows, influence->threads};
     igabem_status status = linear_lu(&matrix, right, &solution->condition);
     solution->options.solver = IGABEM_SOLVER_LU;
     solution->memory = 3.0 * (double)(n * n * sizeof *rows);
     if (status == IGABEM_OK) {
         memcpy(solution->sigma, right, system->hull * sizeof *right);
-        status = keep_surface(influence, solution, n - system->hull, right + system->hull);
+        status = keep_surface(influence, solution, right + system->hull);
     }
     if (status == IGABEM_OK)
         status = fill_velocity(influence, solution);
@@ -146,14 +176,15 @@ static igabem_status solve_alike(const struct influence *influence, size_t n,
 {
     struct exterior_system system = {0};
     struct free_surface *surface = NULL;
+    struct transom *transom = NULL;
     double start = wall_seconds(), fraction = progress->done;
     size_t alike = 0;
     for (size_t m = 0; m < n; m++)
         alike += !done[m] && same_surface(&solutions[0]->options, &solutions[m]->options);
-    igabem_status status = make_surface(solutions[0], &surface);
+    igabem_status status = make_surface(influence, solutions[0], &surface, &transom);
     if (status == IGABEM_OK)
-        status = exterior_system_create(influence, surface, solutions[0]->options.surface_damping,
-                                        &system);
+        status = exterior_system_create(influence, surface, transom,
+                                        solutions[0]->options.surface_damping, &system);
     double *rows = status == IGABEM_OK ? malloc(system.n * system.n * sizeof *rows) : NULL;
     if (status == IGABEM_OK && !rows)
         status = solution_no_memory(system.n);
@@ -171,6 +202,7 @@ static igabem_status solve_alike(const struct influence *influence, size_t n,
     }
     free(rows);
     free_surface_free(surface);
+    transom_free(transom);
     exterior_system_free(&system);
     return status;
 }

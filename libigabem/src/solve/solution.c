@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "exterior/free_surface.h"
+#include "exterior/transom.h"
 #include "solve/formulation.h"
 
 #include <math.h>
@@ -66,6 +67,8 @@ void igabem_solution_free(igabem_solution *solution)
     density_free(solution->density);
     free_surface_free(solution->surface);
     free(solution->surface_phi);
+    transom_free(solution->transom);
+    free(solution->strip_phi);
     free(solution->sigma);
     free(solution->velocity);
     free(solution->sigma_lower);

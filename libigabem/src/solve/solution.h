@@ -15,7 +15,9 @@ struct igabem_solution {
     double *sigma;  /* [n] coefficients of the density, m/s */
     bool potential; /* sigma holds the coefficients of the potential on the hull, m^2/s */
     struct free_surface *surface; /* of a potential: where it was solved; NULL: none */
-    double *surface_phi;          /* its coefficients there */
+    double *surface_phi;          /* its coefficients there, then those of the hull's edge */
+    struct transom *transom;      /* strip and face of a dry one; NULL: none */
+    double *strip_phi;            /* coefficients, the rim's phi and its slope */
     double *velocity;    /* [3][n] coefficients of grad phi on the hull, fluid side; NULL: none */
     double *sigma_lower; /* [n] with 0.85 of the cut-off, NULL: not asked for */
     double *sigma_upper; /* [n] with 1.15 */
