@@ -278,6 +278,46 @@ static bool report(const struct runner *r)
     return ok;
 }
 
+/* Number of this process among those that a launcher (mpirun, srun) started together; -1: none did.
+ */
+static long rank(void)
+{
+    static const char *const variables[] = {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK",
+                                            "SLURM_PROCID"};
+    for (size_t i = 0; i < sizeof variables / sizeof *variables; i++) {
+        const char *text = getenv(variables[i]);
+        size_t number;
+        if (text && cli_parse_size(text, &number))
+            return (long)number;
+    }
+    return -1;
+}
+
+/* Whether another process that lives holds a point of the store. */
+static bool others_work(struct runner *r)
+{
+    bayesopt_point p;
+    bayesopt_holder holder;
+    if (bayesopt_refresh(r->bo))
+        return false;
+    for (size_t i = 0; !bayesopt_get(r->bo, i, &p); i++)
+        if (p.state == BAYESOPT_STATE_PENDING && !bayesopt_get_holder(r->bo, p.id, &holder) &&
+            holder.alive && !holder.detached && holder.process != getpid())
+            return true;
+    return false;
+}
+
+/* Ranks share the store and the work; the first of them waits for the others and reports. */
+static bool conclude(struct runner *r)
+{
+    const struct timespec pause = {0, 100000000};
+    if (rank() > 0)
+        return true;
+    while (rank() == 0 && !interrupted && others_work(r))
+        nanosleep(&pause, NULL);
+    return report(r);
+}
+
 static bool open_model(struct runner *r)
 {
     const struct config *c = &r->config;
@@ -313,7 +353,7 @@ static bool run(struct runner *r, const char *store)
     r->works = bayesopt_best_told(r->bo, NULL, NULL, NULL) >= 0;
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
-    return work(r) && report(r);
+    return work(r) && conclude(r);
 }
 
 /* The options, the file between them, because options win, and the run. */
