@@ -265,6 +265,8 @@ galv_status galv_backmap(const galv_model *model, const galv_shape *shape, const
         return galv_fail(GALV_ERROR_ARGUMENT,
                          "the shape has %zu parameters, the model was built from %zu",
                          galv_shape_parameters(shape), model->parameters);
+    if (model->method == GALV_METHOD_PARAMETERS)
+        return galv_fail(GALV_ERROR_ARGUMENT, "the modes of this model are the parameters");
     if (model->parameters == 0)
         return galv_fail(GALV_ERROR_ARGUMENT, "the model was built from data without parameters");
     search s;

@@ -289,6 +289,8 @@ galv_status galv_extend(const galv_model *model, const galv_shape *shape, galv_s
     THREADS(options->threads);
     if (!model || !shape || !extended)
         return galv_fail(GALV_ERROR_ARGUMENT, "model, shape and result must be given");
+    if (model->method == GALV_METHOD_PARAMETERS)
+        return galv_fail(GALV_ERROR_ARGUMENT, "the modes of this model are the parameters");
     galv_status status = check(model, shape, &sampling, options);
     if (status)
         return status;

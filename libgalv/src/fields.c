@@ -212,7 +212,7 @@ static galv_status check_sizes(const galv_model *m)
             "no model has %zu samples, %zu modes, %zu vectors, %zu eigenvalues, %zu of "
             "%zu coordinates moving, %zu points",
             m->samples, m->modes, m->kept, m->spectrum, m->active, m->coordinates, m->points);
-    if (m->method == GALV_METHOD_AUTO || m->method > GALV_METHOD_FACTORED)
+    if (m->method == GALV_METHOD_AUTO || m->method > GALV_METHOD_PARAMETERS)
         return galv_fail(GALV_ERROR_ARGUMENT, "'method' is %zu", m->method);
     if (!(m->trace > 0))
         return galv_fail(GALV_ERROR_ARGUMENT, "'trace' is %g", m->trace);

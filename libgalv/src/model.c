@@ -57,6 +57,8 @@ galv_status galv_project(const galv_model *model, const double *d, double *u)
 {
     if (!model || !d || !u)
         return galv_fail(GALV_ERROR_ARGUMENT, "model, displacement and result must be given");
+    if (model->method == GALV_METHOD_PARAMETERS)
+        return galv_fail(GALV_ERROR_ARGUMENT, "the modes of this model are the parameters");
     galv_status status = check_finite("displacement", model->coordinates, d);
     if (status)
         return status;

@@ -216,6 +216,7 @@ static void test_limits(void)
     galv_limits *made;
     double u[FUNCTIONS] = {0}, value;
     galv_particulars particulars;
+    galv_model *parameters;
     galv_fairness fairness;
     REFUSED(galv_grid_volume, SECTIONS, GIRTH, NULL, &value);
     REFUSED(galv_grid_volume, SECTIONS, GIRTH, grid, NULL);
@@ -226,6 +227,9 @@ static void test_limits(void)
     IS_NAN(galv_grid_half_breadth, SECTIONS, GIRTH, NULL, 0, 0);
     REFUSED(galv_grid_entrance, SECTIONS, GIRTH, NULL, 1, &value);
     REFUSED(galv_grid_entrance, SECTIONS, GIRTH, grid, 1, NULL);
+    REFUSED(galv_build_parameters, NULL, SECTIONS * GIRTH, grid, &parameters);
+    REFUSED(galv_build_parameters, shape, SECTIONS * GIRTH, NULL, &parameters);
+    REFUSED(galv_build_parameters, shape, SECTIONS * GIRTH, grid, NULL);
     REFUSED(galv_limits_create, NULL, SECTIONS, GIRTH, 1, &made);
     REFUSED(galv_limits_create, model, SECTIONS, GIRTH, 1, NULL);
     REFUSED(galv_limits_breadth, NULL, u, &value, &value);

@@ -114,6 +114,49 @@ static void test_rows_match_single_displacements(void)
     rows_match_single_displacements(GALV_COMBINATION_SCALED);
 }
 
+/* The parameters themselves as variables: displaced by them the points are where the shape has
+ * them, of a recursive set to second order. */
+static void parameters_as_variables(galv_combination combination, double tolerance)
+{
+    double xyz[3 * POINTS], lower[6], upper[6], x[6], d[3 * POINTS], moved[3 * POINTS], u[6];
+    galv_sine functions[FUNCTIONS]; /* the first six are used */
+    galv_shape *shape = NULL;
+    galv_model *model = NULL;
+    fixture_grid(xyz);
+    fixture_functions(functions);
+    for (int i = 0; i < 6; i++)
+        upper[i] = -(lower[i] = -0.02);
+    CU_ASSERT_EQUAL_FATAL(
+        galv_shape_sine(6, functions, &fixture_box, lower, upper, combination, &shape), GALV_OK);
+    CU_ASSERT_EQUAL_FATAL(galv_build_parameters(shape, POINTS, xyz, &model), GALV_OK);
+    CU_ASSERT_EQUAL(galv_model_modes(model), 6);
+    double worst = 0;
+    for (size_t r = 0; r < 5; r++) {
+        galv_uniform_sample(5, r, 6, lower, upper, x);
+        CU_ASSERT_EQUAL(galv_shape_displace(shape, POINTS, xyz, x, d), GALV_OK);
+        CU_ASSERT_EQUAL(galv_displace(model, x, moved), GALV_OK);
+        for (size_t k = 0; k < 3 * POINTS; k++)
+            worst = fmax(worst, fabs(moved[k] - xyz[k] - d[k]));
+    }
+    CHECK_CLOSE(worst, 0, tolerance);
+    for (int i = 0; i < 6; i++) {
+        CU_ASSERT_EQUAL(galv_model_lower(model)[i], -0.02);
+        CU_ASSERT_EQUAL(galv_model_upper(model)[i], 0.02);
+    }
+    CU_ASSERT_EQUAL(galv_project(model, d, u), GALV_ERROR_ARGUMENT);
+    CU_ASSERT_EQUAL(galv_backmap(model, shape, x, u, NULL), GALV_ERROR_ARGUMENT);
+    galv_model_free(model);
+    galv_shape_free(shape);
+}
+
+static void test_parameters_as_variables(void)
+{
+    parameters_as_variables(GALV_COMBINATION_LINEAR, 1e-14);
+    parameters_as_variables(GALV_COMBINATION_SCALED, 1e-14);
+    /* Six moves of 0.02 in a box of width 0.38 at slopes up to 3 pi / 0.38. */
+    parameters_as_variables(GALV_COMBINATION_RECURSIVE, 0.02);
+}
+
 /* Below the bound every section through the box stays in it and in order, whatever the other
  * parameters. */
 static void test_fold_bound_keeps_order(void)
@@ -268,6 +311,7 @@ static void test_box_around(void)
 }
 
 static const struct check_case cases[] = {
+    {"parameters as variables", test_parameters_as_variables},
     {"the box around points", test_box_around},
     {"sine products equal eqs. 16-17", test_sines_match_definition},
     {"any direction, order and phase", test_any_direction_and_phase},

@@ -14,7 +14,8 @@ enum { VERSION = 1 };
 /* No array of a model file is longer. */
 #define MOST_NUMBERS ((size_t)1 << 40)
 
-static const char *const methods[] = {"auto", "covariance", "gram", "randomised", "factored"};
+static const char *const methods[] = {"auto",       "covariance", "gram",
+                                      "randomised", "factored",   "parameters"};
 
 const char *method_name(galv_method method)
 {

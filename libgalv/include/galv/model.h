@@ -52,6 +52,7 @@ typedef enum galv_method {
     GALV_METHOD_GRAM,       /**< the N x N matrix of inner products */
     GALV_METHOD_RANDOMISED, /**< block Krylov iteration on the stream, error bounds a posteriori */
     GALV_METHOD_FACTORED,   /**< linear shapes only: the n x n matrix of their functions */
+    GALV_METHOD_PARAMETERS, /**< none: the modes are the parameters, see galv_build_parameters() */
 } galv_method;
 
 /** Quantities of the moved hull that are appended to d(x), so that modes also account for their
@@ -144,6 +145,19 @@ GALV_API galv_status galv_extra_balance(const galv_shape *shape, size_t npoints,
  * quantities that are given per sample. */
 GALV_API galv_status galv_extra_change(const galv_extra *extra, size_t npoints, const double *xyz,
                                        const double *d, double *values);
+
+/**
+ * The full space of a shape as a model, for what takes a model: u are the parameters, mode k is the
+ * displacement by a unit of parameter k, lower and upper are the bounds of the shape. Of a shape
+ * that is not linear these are its derivatives at the parent: u is the displacement linear in the
+ * parameters. Eigenvalues are what each uniform parameter adds to the trace, in their order. The
+ * modes are not orthonormal: galv_project(), galv_backmap() and galv_extend() refuse such a model.
+ * @param xyz  npoints triples, m; copied
+ * @param[out] model created
+ * @return GALV_ERROR_ARGUMENT where 0 is not between the bounds of a parameter
+ */
+GALV_API galv_status galv_build_parameters(const galv_shape *shape, size_t npoints,
+                                           const double *xyz, galv_model **model);
 
 /** Samples that do not come from a galv_shape: any N x L matrix, in memory or produced row by row.
  */
