@@ -2,6 +2,7 @@
  * Michell's formula is a sum of squares of what is linear in the half breadths, so within the
  * displacement's band there is one minimum. And: a run that dies goes on by the same designs. */
 #include "check.h"
+#include "core/compare.h"
 #include "core/constraints.h"
 #include "core/forecast.h"
 #include "core/optimise.h"
@@ -13,7 +14,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { BUDGET = 16, MODES = 8 };
+enum { BUDGET = 10, MODES = 8 };
 
 static char path[300], store[300];
 
@@ -138,7 +139,7 @@ static void test_resume(void)
         CU_ASSERT_TRUE(whole.n > 1 && whole.n <= BUDGET + 1);
         CU_ASSERT_FALSE(has_twins(&whole));
         CU_ASSERT_TRUE(whole.best <= 1);
-        if (!row->seeded && !row->gradient)
+        if (row->kind == METHOD_NLOPT && !row->gradient)
             continue; /* they share all of their resume with one that is tried */
         record_remove(store);
         CU_ASSERT_EQUAL(session(6), 7);
@@ -198,8 +199,8 @@ static void test_minimum(void)
 {
     static struct history descent, sqp, cobyla;
     run_whole("gauss-newton", 16, &descent);
-    run_whole("sqp", 96, &sqp);
-    run_whole("cobyla", 96, &cobyla);
+    run_whole("sqp", 48, &sqp);
+    run_whole("cobyla", 60, &cobyla);
     CU_ASSERT_TRUE(descent.best < 0.6);
     CHECK_CLOSE(sqp.best, descent.best, 0.02);
     CHECK_CLOSE(cobyla.best, descent.best, 0.05);
@@ -215,7 +216,52 @@ static void test_minimum(void)
     CU_ASSERT_TRUE(dropped);
 }
 
+/* Quartiles by hand; runs of one problem beside each other, of two refused. */
+static void test_compare(void)
+{
+    static struct history h;
+    double numbers[] = {4, 1, 3, 2, INFINITY}, quartile[3];
+    struct comparison c;
+    char other[320];
+    comparison_quartiles(5, numbers, quartile);
+    CU_ASSERT_EQUAL(quartile[0], 2);
+    CU_ASSERT_EQUAL(quartile[1], 3);
+    CU_ASSERT_EQUAL(quartile[2], 4);
+    comparison_quartiles(2, (double[]){1, 2}, quartile);
+    CHECK_CLOSE(quartile[0], 1.25, 1e-15);
+    run_whole("random", BUDGET, &h);
+    snprintf(other, sizeof other, "%s.other", store);
+    CU_ASSERT_EQUAL(rename(store, other), 0);
+    double least = h.best;
+    run_whole("lhs", BUDGET, &h);
+    least = fmin(least, h.best);
+    char *const both[] = {store, other};
+    CU_ASSERT_TRUE_FATAL(comparison_read(2, both, &c));
+    CU_ASSERT_EQUAL(c.groups, 2);
+    CU_ASSERT_EQUAL(c.least, least);
+    CU_ASSERT_EQUAL(c.course[0].n, BUDGET);
+    CU_ASSERT_EQUAL(c.course[0].best[BUDGET - 1], h.best);
+    for (size_t level = 0; level < COMPARE_LEVELS; level++)
+        for (size_t g = 0; g < 2; g++) {
+            size_t n = comparison_needed(&c, g, level, false, numbers), k = 0;
+            CU_ASSERT_EQUAL(n, 1);
+            while (k < BUDGET && c.course[g].best[k] > (1 + COMPARE_LEVEL[level]) * least)
+                k++;
+            CU_ASSERT_EQUAL(numbers[0], k == BUDGET ? INFINITY : (double)(k + 1));
+        }
+    comparison_free(&c);
+    FILE *file = fopen(path, "a");
+    fputs("verification: {froude: [0.28]}\n", file);
+    fclose(file);
+    record_remove(store);
+    CU_ASSERT_EQUAL(session(-1), 0);
+    CU_ASSERT_FALSE(comparison_read(2, both, &c));
+    CU_ASSERT_PTR_NOT_NULL(strstr(core_sentence(), "different problems"));
+    record_remove(other);
+}
+
 static const struct check_case cases[] = {
+    {"runs beside each other", test_compare},
     {"a search that dies goes on by the same designs", test_resume},
     {"designs alone", test_designs},
     {"the one minimum", test_minimum},

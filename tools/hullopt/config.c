@@ -12,6 +12,8 @@ static const struct setting_word BY_RULE[] = {{"by rule", NAN}, {NULL, 0}};
 static const struct setting_word AUTO[] = {{"auto", -1}, {NULL, 0}};
 static const struct setting_word AS_IN_FILE[] = {{"as in the hull file", 0}, {NULL, 0}};
 
+static const struct setting_word SPACES[] = {{"latent", 0}, {"parameters", 1}, {NULL, 0}};
+
 static const char *formulation(int value)
 {
     return igabem_formulation_name((igabem_formulation)value);
@@ -128,6 +130,9 @@ static const struct setting ROWS[] = {
         SETTING_INSIDE(0, 0.1)),
     ROW("search.method", CHOICE, method, "how the best design is looked for", .choice = method,
         .otherwise = "bayesian"),
+    ROW("search.space", CHOICE, space,
+        "latent variables, or the parameters of the shape themselves", .words = SPACES,
+        .otherwise = "latent"),
     ROW("search.models", CHOICE, model,
         "formulations besides solver.formulation: what counts is the worst of them",
         .choice = formulation, .n_most = CONFIG_MODELS_MOST,

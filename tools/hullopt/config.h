@@ -34,6 +34,7 @@ struct config {
     double kg;                           /* centre of gravity above the deepest point, m */
     size_t stations, hard_points, boxes; /* numbers below: x; x, z; x, x, y, z, z */
     double station[CONFIG_PLACES_MOST], hard_point[CONFIG_PLACES_MOST], box[CONFIG_PLACES_MOST];
+    int space;     /* of the variables: 0 latent, 1 the parameters themselves */
     int method;    /* of method_row() */
     size_t models; /* formulations besides the solver's: the worst of all is the objective */
     igabem_formulation model[CONFIG_MODELS_MOST];

@@ -13,12 +13,16 @@ struct options {
     int port, jobs;
     double *latent, *parameters; /* of one design */
     size_t n_latent, n_parameters;
+    char **folders; /* of the words, for a command that takes any number */
+    size_t n_folders;
     bool json;    /* the result on standard output instead of the figures */
     double start; /* of the command, cli_seconds() */
 };
 
 /* One design, for an optimiser of one's own. */
 int evaluate_command(const struct options *options);
+/* Runs of one problem beside each other. */
+int compare_command(const struct options *options);
 /* What a run may gain and what each constraint costs. */
 int forecast_command(const struct options *options);
 /* All stages of an optimisation, from the configuration to the report. */

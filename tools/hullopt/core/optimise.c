@@ -6,6 +6,7 @@
 #include "core/waves.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -71,6 +72,36 @@ static bool build_best(struct problem *problem, const struct record *record, dou
     return ok;
 }
 
+/* Variables that are the parameters already, and how far the shape is from its linear part there.
+ */
+static bool keep_parameters(const struct problem *problem, const galv_shape *shape, const double *u,
+                            double *x, double *residual)
+{
+    size_t points = galv_model_points(problem->model);
+    double *d = malloc(6 * points * sizeof *d), sum = 0;
+    if (!d)
+        return core_no_memory();
+    memcpy(x, u, galv_shape_parameters(shape) * sizeof *x);
+    bool ok =
+        (galv_shape_displace(shape, points, nurbs_grid_points(problem->grid), u, d) == GALV_OK &&
+         galv_reconstruct(problem->model, u, d + 3 * points) == GALV_OK) ||
+        core_fail("%s", galv_last_error());
+    for (size_t k = 0; k < 3 * points && ok; k++)
+        sum += (d[k] - d[3 * points + k]) * (d[k] - d[3 * points + k]);
+    *residual = sqrt(sum / (double)points);
+    free(d);
+    return ok;
+}
+
+static bool map_parameters(const struct problem *problem, const galv_shape *shape, const double *u,
+                           double *x, double *residual)
+{
+    return galv_model_method(problem->model) == GALV_METHOD_PARAMETERS
+               ? keep_parameters(problem, shape, u, x, residual)
+               : galv_backmap(problem->model, shape, u, x, residual) == GALV_OK ||
+                     core_fail("back-mapping: %s", galv_last_error());
+}
+
 /* The parameters of the original family nearest to the best design. */
 static bool back_map(const struct problem *problem, const galv_shape *shape, const double *u,
                      struct record *record)
@@ -83,8 +114,7 @@ static bool back_map(const struct problem *problem, const galv_shape *shape, con
     if (ok)
         free(known);
     if (ok && !have)
-        ok = (galv_backmap(problem->model, shape, u, x, &residual) == GALV_OK ||
-              core_fail("back-mapping: %s", galv_last_error())) &&
+        ok = map_parameters(problem, shape, u, x, &residual) &&
              record_put_array(record, "best.parameters", 1, n, x) &&
              record_put_array(record, "best.residual", 1, 1, &residual);
     free(x);

@@ -287,8 +287,13 @@ bool problem_reduce(struct problem *problem, const galv_shape *shape,
     options.progress = show_fraction;
     options.progress_user_data = &show;
     size_t points = nurbs_grid_rows(problem->grid) * nurbs_grid_columns(problem->grid);
-    if (galv_build(shape, points, nurbs_grid_points(problem->grid),
-                   galv_uniform(config->samples, config->latent_seed), &options, &model) != GALV_OK)
+    const double *xyz = nurbs_grid_points(problem->grid);
+    galv_status status =
+        config->space
+            ? galv_build_parameters(shape, points, xyz, &model)
+            : galv_build(shape, points, xyz, galv_uniform(config->samples, config->latent_seed),
+                         &options, &model);
+    if (status != GALV_OK)
         return core_fail("%s: %s", config->shape, galv_last_error());
     return problem_recall(problem, model, NULL) &&
            (galv_limits_linearise(problem->limits, built_volume, problem) == GALV_OK ||
