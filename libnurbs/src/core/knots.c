@@ -132,6 +132,8 @@ size_t nurbs_knots_distinct(int degree, size_t n, const double *knots, double *b
 
 size_t nurbs_knots_merge(int degree, size_t n, double *knots, double tolerance)
 {
+    if (!knots)
+        return 0;
     const size_t p = (size_t)degree;
     size_t moved = 0;
     for (size_t i = p + 1, count; i < n; i += count) {
