@@ -138,7 +138,8 @@ module igabem_c
     real(c_double) :: surface_upstream
     real(c_double) :: surface_downstream
     real(c_double) :: surface_side
-    real(c_double) :: reserved(1)
+    real(c_double) :: surface_columns
+    real(c_double) :: reserved(8)
   end type
 
   type, bind(c) :: igabem_cost

@@ -71,7 +71,7 @@ static void options(void)
         {"bayesopt_options", bayesopt_options_init, 328},
         {"bayesopt_design_options", bayesopt_design_options_init, 136},
         {"bayesopt_gp_options", bayesopt_gp_options_init, 152},
-        {"igabem_options", igabem_options_init, 216},
+        {"igabem_options", igabem_options_init, 280},
         {"igabem_kelvin_filter", igabem_kelvin_filter_init, 80},
         {"igabem_matrix_options", igabem_matrix_options_init, 168},
     };
@@ -86,7 +86,7 @@ static void results(void)
 {
     void *surface, *hull, *flow, *search;
     const size_t forces = 328, info = 304, point = 168;
-    double settings[216 / sizeof(double)], lower[2] = {0, 0}, upper[2] = {1, 1}, x[2];
+    double settings[280 / sizeof(double)], lower[2] = {0, 0}, upper[2] = {1, 1}, x[2];
     uint64_t id;
     igabem_options_init(settings);
     settings[0] = 0.5; /* froude */

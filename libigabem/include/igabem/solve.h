@@ -96,6 +96,7 @@ typedef struct igabem_options {
     double surface_downstream; /**< aft of it; 1 */
     double surface_side;       /**< from the centre line outwards; 0.75 */
     double surface_columns;    /**< of cells aft of the half of a dry transom; 6 */
+    double reserved[8];        /**< 0: room for members of later releases */
 } igabem_options;
 
 /** Fills the defaults; nothing when NULL. */
