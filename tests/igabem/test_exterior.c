@@ -192,7 +192,7 @@ static void test_transom(void)
 static const struct check_case cases[] = {
     {"spheroid", test_spheroid}, {"thin Wigley hull", test_thin_wigley},
     {"sweep", test_sweep},       {"shares", test_shares},
-    {"refusals", test_refusals},
+    {"transom", test_transom},   {"refusals", test_refusals},
 };
 
 CHECK_MAIN("exterior", cases)
