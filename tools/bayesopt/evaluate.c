@@ -82,14 +82,15 @@ static void kill_group(int signal_number)
 }
 
 /* In the child: a process group of its own, to be killed as one, and a signal when the driver dies.
- */
+ * Scripts that end with 'kill 0' mean their own children, so SIGTERM is not that signal. */
 static void become_keeper(pid_t driver)
 {
     setpgid(0, 0);
-    signal(SIGTERM, kill_group);
+    signal(SIGUSR2, kill_group);
+    signal(SIGTERM, SIG_IGN);
     signal(SIGINT, SIG_DFL);
 #ifdef __linux__
-    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    prctl(PR_SET_PDEATHSIG, SIGUSR2);
 #endif
     if (getppid() != driver) /* it has died already */
         kill(0, SIGKILL);
@@ -118,6 +119,7 @@ static void become_command(const struct evaluation *e, const char *command)
         end_like(process);
     if (process < 0)
         _exit(127);
+    signal(SIGUSR2, SIG_DFL);
     signal(SIGTERM, SIG_DFL);
     execl("/bin/sh", "sh", "-c", command, (char *)NULL);
     _exit(127);

@@ -174,12 +174,13 @@ static bool runner_finish(struct runner *r, struct evaluation *slot, int status)
     return true;
 }
 
-/* Others see that the points in work are in good hands. */
+/* Others see that the points in work are in good hands; seconds between the signs. */
+enum { SIGN_PERIOD = 60 };
+
 static bool give_sign(struct runner *r)
 {
-    static const double period = 60;
     double now = cli_seconds();
-    if (now - r->heard < period)
+    if (now - r->heard < SIGN_PERIOD)
         return true;
     r->heard = now;
     return !bayesopt_heartbeat(r->bo, 0) || library_failed();
@@ -293,16 +294,19 @@ static long rank(void)
     return -1;
 }
 
-/* Whether another process that lives holds a point of the store. */
+/* Whether another process holds a point of the store and has given a sign of life of late, which is
+ * all that is known of processes on other hosts. */
 static bool others_work(struct runner *r)
 {
+    static const double of_late = 5 * SIGN_PERIOD;
     bayesopt_point p;
     bayesopt_holder holder;
     if (bayesopt_refresh(r->bo))
         return false;
     for (size_t i = 0; !bayesopt_get(r->bo, i, &p); i++)
         if (p.state == BAYESOPT_STATE_PENDING && !bayesopt_get_holder(r->bo, p.id, &holder) &&
-            holder.alive && !holder.detached && holder.process != getpid())
+            holder.alive && !holder.detached && holder.heard < of_late &&
+            holder.process != getpid())
             return true;
     return false;
 }
