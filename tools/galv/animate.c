@@ -42,24 +42,6 @@ struct strip {
     double *hull, *u; /* moved points; latent point */
 };
 
-/* The frame of a body plan: a tenth is left for hulls wider than the parent. */
-static void fit(struct strip *strip)
-{
-    const double *p = galv_model_parent(strip->file->model);
-    double low[3] = {INFINITY, 0, INFINITY}, high[3] = {-INFINITY, 0, -INFINITY};
-    for (size_t i = 0; i < galv_model_coordinates(strip->file->model); i++) {
-        low[i % 3] = fmin(low[i % 3], p[i]);
-        high[i % 3] = fmax(high[i % 3], i % 3 == 1 ? fabs(p[i]) : p[i]);
-    }
-    double side = fmax(fmax(2 * high[1], high[2] - low[2]), 1e-12) / 0.9;
-    double centre = (high[2] + low[2]) / 2;
-    strip->frame = (struct plot_frame){.width = PANEL, .height = PANEL};
-    strip->frame.x = (struct plot_axis){.low = -side / 2, .high = side / 2};
-    strip->frame.y = (struct plot_axis){.low = centre - side / 2, .high = centre + side / 2};
-    strip->middle = (low[0] + high[0]) / 2;
-    strip->stride = strip->file->sections > 24 ? strip->file->sections / 24 + 1 : 1;
-}
-
 /* The hull of frame f along direction k: the others at their sample mean of 0. */
 static galv_status move_hull(struct strip *strip, size_t k, size_t f)
 {
@@ -72,6 +54,36 @@ static galv_status move_hull(struct strip *strip, size_t k, size_t f)
     for (size_t i = 0; i < galv_model_coordinates(model) && !status; i++)
         strip->hull[i] = galv_model_parent(model)[i] + strip->scale * strip->hull[i];
     return status;
+}
+
+static void include(const struct strip *strip, const double *p, double low[3], double high[3])
+{
+    for (size_t i = 0; i < galv_model_coordinates(strip->file->model); i++) {
+        low[i % 3] = fmin(low[i % 3], p[i]);
+        high[i % 3] = fmax(high[i % 3], i % 3 == 1 ? fabs(p[i]) : p[i]);
+    }
+}
+
+/* The frame of a body plan: around the parent and the hulls at the ends of all directions. */
+static galv_status fit(struct strip *strip)
+{
+    double low[3] = {INFINITY, 0, INFINITY}, high[3] = {-INFINITY, 0, -INFINITY};
+    include(strip, galv_model_parent(strip->file->model), low, high);
+    strip->middle = (low[0] + high[0]) / 2;
+    for (size_t k = 0; k < strip->modes; k++)
+        for (size_t end = 0; end < 2; end++) {
+            galv_status status = move_hull(strip, k, end * (strip->frames - 1));
+            if (status)
+                return status;
+            include(strip, strip->hull, low, high);
+        }
+    double side = fmax(fmax(2 * high[1], high[2] - low[2]), 1e-12) / 0.96;
+    double centre = (high[2] + low[2]) / 2;
+    strip->frame = (struct plot_frame){.width = PANEL, .height = PANEL};
+    strip->frame.x = (struct plot_axis){.low = -side / 2, .high = side / 2};
+    strip->frame.y = (struct plot_axis){.low = centre - side / 2, .high = centre + side / 2};
+    strip->stride = strip->file->sections > 24 ? strip->file->sections / 24 + 1 : 1;
+    return GALV_OK;
 }
 
 /* Aft sections to the left, fore sections to the right. */
@@ -149,8 +161,9 @@ static galv_status draw_row(struct strip *strip, size_t k)
 static bool animate(struct strip *strip, const char *output)
 {
     const char *slash = strrchr(strip->file->hull, '/');
-    galv_status status = GALV_OK;
-    fit(strip);
+    galv_status status = fit(strip);
+    if (status)
+        return cli_refuse("%s", galv_last_error());
     if (!plot_open(&strip->sheet, (PANEL + GAP) * (double)(strip->frames + 1),
                    HEADER + (PANEL + 2 * GAP) * (double)strip->modes, "Latent directions"))
         return false;

@@ -119,7 +119,7 @@ static void draw_chart(struct plot *plot, struct plot_frame *f, const struct plo
     if (l->wanted > 0 && first == 0)
         plot_line(plot, f->left, plot_y(f, 100 * l->wanted), f->left + f->width,
                   plot_y(f, 100 * l->wanted), (struct plot_pen){PLOT_MUTED, 1, "2 3"});
-    double at = plot_x(f, (double)l->modes), height = plot_y(f, kept);
+    double at = plot_x(f, (double)l->modes);
     plot_line(plot, at, f->top, at, f->top + f->height,
               (struct plot_pen){PLOT_OPTIMUM, 1.2, "4 3"});
     for (size_t k = 0; x && k < n; k++)
@@ -131,9 +131,10 @@ static void draw_chart(struct plot *plot, struct plot_frame *f, const struct plo
                   k + first == l->modes ? 4.5 : 2.4,
                   k + first == l->modes ? PLOT_OPTIMUM : PLOT_BLUE, NULL);
     bool right = at < f->left + 0.55 * f->width;
-    plot_label(
-        plot, right ? at + 9 : at - 9, fmin(height + (first ? -10 : 20), f->top + f->height - 6),
-        12, right ? PLOT_START : PLOT_END, PLOT_OPTIMUM, "%zu modes: %.4g%s", l->modes, kept, unit);
+    /* Where the curve is not: it rises from the corner below on the left, or falls to the right. */
+    plot_label(plot, right ? at + 9 : at - 9, right && first ? f->top + 16 : f->top + f->height - 8,
+               12, right ? PLOT_START : PLOT_END, PLOT_OPTIMUM, "%zu modes: %.4g%s", l->modes, kept,
+               unit);
     free(x);
 }
 
