@@ -89,8 +89,8 @@ typedef struct igabem_options {
     double surface_cells;    /**< cells along the hull; 48, over a submerged one 24 */
     double surface_rows;     /**< rows of cells from the hull outwards; a third of those */
     double surface_first;    /**< width of the first row as a share of a cell's length; 1 */
-    double surface_damping;  /**< the shortest wave across the stream loses a factor e^-that a cell
-                                along it, of cells as wide as long; 0 */
+    double surface_damping;  /**< factor of the least damping of short waves across the stream
+                                (theory.md, section 12), at least 1e-6; 1 */
     double surface_upstream; /**< extent ahead of the hull as a share of its length; 0.5, over a
                                 submerged one 2 */
     double surface_downstream; /**< aft of it; 1 */

@@ -1,5 +1,6 @@
 #include "exterior/operator.h"
 
+#include "core/constants.h"
 #include "core/error.h"
 #include "exterior/spline.h"
 
@@ -13,6 +14,7 @@ void operator_free(struct surface_operator *operator_)
 {
     sparse_free(&operator_->value);
     sparse_free(&operator_->second);
+    sparse_free(&operator_->odd);
 }
 
 static igabem_status no_memory(void)
@@ -115,11 +117,12 @@ static void add_product(const struct free_surface *surface, bool beside, size_t 
                             factor * a[k] * b[l], row);
 }
 
-/* phi_xx at the middle of cell (i, j): with eta = eta(x, y) and F over (x, eta),
- *     phi_xx = F_xx + 2 eta_x F_x,eta + eta_x^2 F_eta,eta + eta_xx F_eta,
- * less 2 mu phi_x with mu = w/(64 dx) of the sixth difference across, w = damping/sqrt(dy/dx). */
-static void second_row(const struct free_surface *surface, const struct across *across, bool beside,
-                       size_t i, size_t j, double damping, double *row)
+/* Derivatives of eta(x, y) at the middle of cell (i, j), and dy/deta. */
+struct lines {
+    double ex, exx, ye;
+};
+
+static struct lines lines_at(const struct free_surface *surface, size_t i, size_t j)
 {
     double y[3][3], dx = surface->dx;
     for (size_t a = 0; a < 3; a++)
@@ -129,35 +132,54 @@ static void second_row(const struct free_surface *surface, const struct across *
     double yx = -(y[2][1] - y[0][1]) / dx;
     double yxx = 4.0 * (y[2][1] - 2.0 * y[1][1] + y[0][1]) / (dx * dx);
     double yxe = -(y[2][2] - y[2][0] - y[0][2] + y[0][0]) / dx;
-    double ex = -yx / ye, exx = -(yxx + 2.0 * ex * yxe + ex * ex * yee) / ye;
-    const double(*d)[ALONG] = i + 1 < surface->nx ? spline_along : spline_last;
-    add_product(surface, beside, i, j, d[2], across->value, 1.0 / (dx * dx), row);
-    add_product(surface, beside, i, j, d[1], across->first, -2.0 * ex / dx, row);
-    add_product(surface, beside, i, j, d[0], across->second, ex * ex, row);
-    add_product(surface, beside, i, j, d[0], across->first, exx, row);
-    double mu = damping * sqrt(dx / ye) / (64.0 * dx);
-    add_product(surface, beside, i, j, d[1], across->value_sixth, 2.0 * mu / dx, row);
-    add_product(surface, beside, i, j, d[0], across->first_sixth, -2.0 * mu * ex, row);
+    double ex = -yx / ye;
+    return (struct lines){ex, -(yxx + 2.0 * ex * yxe + ex * ex * yee) / ye, ye};
 }
 
-igabem_status operator_create(const struct free_surface *surface, double damping,
-                              struct surface_operator *result)
+/* phi_xx at the middle of cell (i, j), F over (x, eta):
+ *     phi_xx = F_xx + 2 eta_x F_x,eta + eta_x^2 F_eta,eta + eta_xx F_eta. */
+static void second_row(const struct free_surface *surface, const struct across *across, bool beside,
+                       size_t i, size_t j, double *row)
 {
-    size_t nx = surface->nx, ny = surface->ny, n = nx * ny, room[2] = {0, 0};
+    const struct lines at = lines_at(surface, i, j);
+    const double(*d)[ALONG] = i + 1 < surface->nx ? spline_along : spline_last, dx = surface->dx;
+    add_product(surface, beside, i, j, d[2], across->value, 1.0 / (dx * dx), row);
+    add_product(surface, beside, i, j, d[1], across->first, -2.0 * at.ex / dx, row);
+    add_product(surface, beside, i, j, d[0], across->second, at.ex * at.ex, row);
+    add_product(surface, beside, i, j, d[0], across->first, at.exx, row);
+}
+
+/* -2 mu phi_x over sqrt(k0), of the sixth difference across. */
+static void odd_row(const struct free_surface *surface, const struct across *across, bool beside,
+                    size_t i, size_t j, double *row)
+{
+    const struct lines at = lines_at(surface, i, j);
+    const double(*d)[ALONG] = i + 1 < surface->nx ? spline_along : spline_last;
+    const double twice = 1.0 / (64.0 * sqrt(PI * at.ye));
+    add_product(surface, beside, i, j, d[1], across->value_sixth, twice / surface->dx, row);
+    add_product(surface, beside, i, j, d[0], across->first_sixth, -twice * at.ex, row);
+}
+
+igabem_status operator_create(const struct free_surface *surface, struct surface_operator *result)
+{
+    size_t nx = surface->nx, ny = surface->ny, n = nx * ny, room[3] = {0, 0, 0};
     size_t columns = n + surface->stern - surface->bow;
     struct across across;
     fill_across(&across);
     *result = (struct surface_operator){.value.start = calloc(n + 1, sizeof(size_t)),
-                                        .second.start = calloc(n + 1, sizeof(size_t))};
+                                        .second.start = calloc(n + 1, sizeof(size_t)),
+                                        .odd.start = calloc(n + 1, sizeof(size_t))};
     double *row = calloc(columns, sizeof *row);
-    bool complete = result->value.start && result->second.start && row;
+    bool complete = result->value.start && result->second.start && result->odd.start && row;
     for (size_t c = 0; c < n && complete; c++) {
         size_t i = c / ny, j = c % ny;
         bool beside = is_beside(surface, i);
         add_product(surface, beside, i, j, spline_along[0], across.value, 1.0, row);
         complete = sparse_append(&result->value, columns, row, &room[0]);
-        second_row(surface, &across, beside, i, j, damping, row);
+        second_row(surface, &across, beside, i, j, row);
         complete = complete && sparse_append(&result->second, columns, row, &room[1]);
+        odd_row(surface, &across, beside, i, j, row);
+        complete = complete && sparse_append(&result->odd, columns, row, &room[2]);
     }
     free(row);
     if (complete)

@@ -1,7 +1,7 @@
 /* The discrete free-surface operator. phi on the free surface is a biquadratic spline over the
  * cell coordinates with a coefficient per cell and one beyond the last downstream. Unknown (i, j)
  * is the coefficient of cell (i + 1, j): this shift is what sends the waves downstream. The others
- * are upstream     those of i = 1 (phi_x = phi_xx = 0), centre line  the mirror image, waterline a
+ * are upstream     linear continuation (phi_xx = 0), centre line  the mirror image, waterline a
  * parabola through phi of the hull's edge, outer edge   linear continuation. Green's identity is
  * taken at the middles of the cells, and phi_xx from values there as a biquadratic spline of its
  * own. */
@@ -15,10 +15,13 @@ struct surface_operator {
     /* Columns: the unknowns, then phi of the hull's edge at the middles of the cells beside it. */
     struct sparse value;  /* phi at the middle of a cell */
     struct sparse second; /* phi_xx there */
+    /* Times sqrt(k0): what damping adds to phi_xx, Rayleigh's -2 mu phi_x with mu = w/dx times the
+     * sixth difference across over 64, w = (1/2) sqrt(k0 dx^2/(pi dy)): a wave across loses a
+     * factor e before it has strayed half its length (docs/theory.md, section 12). */
+    struct sparse odd;
 };
 
-/* damping: the shortest wave across the stream loses a factor e^-damping per cell along it. */
-igabem_status operator_create(const struct free_surface *surface, double damping,
+igabem_status operator_create(const struct free_surface *surface,
                               struct surface_operator *operator_);
 /* phi of the hull's edge at the middles of the cells beside it, from the coefficients on the hull.
  */

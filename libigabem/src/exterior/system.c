@@ -14,6 +14,7 @@ void exterior_system_free(struct exterior_system *system)
 {
     free(system->fixed);
     free(system->wave);
+    free(system->odd);
     free(system->right);
     free(system->slope);
     *system = (struct exterior_system){0};
@@ -113,7 +114,7 @@ static void add_strip(const struct exterior_system *system, const struct transom
 /* Strengths of the free surface: the layer's factors through the operator. */
 static igabem_status add_waves(const struct assembly *assembly, const struct layer_point *point,
                                struct row_work *work, const struct exterior_system *system,
-                               double *wave)
+                               double *wave, double *odd)
 {
     const struct free_surface *surface = assembly->surface;
     struct layer_rows rows = {.single = work->single};
@@ -124,6 +125,7 @@ static igabem_status add_waves(const struct assembly *assembly, const struct lay
     for (size_t c = 0; c < system->cells; c++) {
         size_t at = (c / surface->ny + 1) * surface->columns + c % surface->ny + 1;
         add_surface(system, assembly, &assembly->operator_.second, c, work->single[at], wave);
+        add_surface(system, assembly, &assembly->operator_.odd, c, work->single[at], odd);
     }
     return status;
 }
@@ -165,8 +167,10 @@ static igabem_status fill_row(const struct assembly *assembly, size_t i, struct 
                               struct exterior_system *system)
 {
     double *fixed = system->fixed + i * system->n, *wave = system->wave + i * system->n;
+    double *odd = system->odd + i * system->n;
     memset(fixed, 0, system->n * sizeof *fixed);
     memset(wave, 0, system->n * sizeof *wave);
+    memset(odd, 0, system->n * sizeof *odd);
     system->right[i] = system->slope[i] = 0.0;
     struct layer_point on_hull = {.homes = 0}, on_surface = {.homes = 0};
     const struct layer_point *on_strip = NULL;
@@ -192,7 +196,7 @@ static igabem_status fill_row(const struct assembly *assembly, size_t i, struct 
         layer_add(&assembly->layer[PART_HULL], &on_hull, &work->layer[PART_HULL], &dipole);
     system->right[i] += dipole.flow;
     if (status == IGABEM_OK)
-        status = add_waves(assembly, &on_surface, work, system, wave);
+        status = add_waves(assembly, &on_surface, work, system, wave, odd);
     if (status == IGABEM_OK && assembly->transom)
         status = add_transom(assembly, on_strip, on_hull.at, work, system, i);
     return status;
@@ -241,8 +245,7 @@ static void assembly_free(struct assembly *assembly)
 
 static igabem_status assembly_create(const struct influence *hull,
                                      const struct free_surface *surface,
-                                     const struct transom *transom, double damping,
-                                     struct assembly *assembly)
+                                     const struct transom *transom, struct assembly *assembly)
 {
     const struct mesh *mesh[PARTS] = {hull->mesh, surface->mesh, transom ? transom->strip : NULL,
                                       transom ? transom->face : NULL};
@@ -251,7 +254,7 @@ static igabem_status assembly_create(const struct influence *hull,
     assembly->doubles = surface->coefficients + surface->nx + surface->ny;
     if (transom && assembly->doubles < transom->coefficients + transom->cells)
         assembly->doubles = transom->coefficients + transom->cells;
-    igabem_status status = operator_create(surface, damping, &assembly->operator_);
+    igabem_status status = operator_create(surface, &assembly->operator_);
     if (status == IGABEM_OK)
         status = operator_edge(surface, hull->density, hull->mesh, &assembly->edge);
     for (size_t p = 0; p < assembly->parts && status == IGABEM_OK; p++) {
@@ -270,8 +273,7 @@ static igabem_status assembly_create(const struct influence *hull,
 
 igabem_status exterior_system_create(const struct influence *hull,
                                      const struct free_surface *surface,
-                                     const struct transom *transom, double damping,
-                                     struct exterior_system *system)
+                                     const struct transom *transom, struct exterior_system *system)
 {
     size_t cells = surface->nx * surface->ny;
     size_t n = hull->density->n + cells + (transom ? transom->cells * transom->n : 0);
@@ -280,12 +282,13 @@ igabem_status exterior_system_create(const struct influence *hull,
                                        .cells = cells,
                                        .fixed = malloc(n * n * sizeof(double)),
                                        .wave = malloc(n * n * sizeof(double)),
+                                       .odd = malloc(n * n * sizeof(double)),
                                        .right = malloc(n * sizeof(double)),
                                        .slope = malloc(n * sizeof(double))};
-    if (!system->fixed || !system->wave || !system->right || !system->slope)
+    if (!system->fixed || !system->wave || !system->odd || !system->right || !system->slope)
         return no_memory(n);
     struct assembly assembly;
-    igabem_status status = assembly_create(hull, surface, transom, damping, &assembly);
+    igabem_status status = assembly_create(hull, surface, transom, &assembly);
     if (status != IGABEM_OK)
         return status;
     status = fill(&assembly, hull->threads, system);

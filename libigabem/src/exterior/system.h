@@ -10,17 +10,16 @@
 #include "exterior/operator.h"
 #include "exterior/transom.h"
 
-/* (fixed - wave/k0) q = U (right + k0 slope), row by row. */
+/* (fixed - wave/k0 - damping odd/sqrt(k0)) q = U (right + k0 slope), row by row. */
 struct exterior_system {
     size_t n, hull, cells; /* unknowns, those on the hull and on the free surface */
-    double *fixed, *wave, *right, *slope;
+    double *fixed, *wave, *odd, *right, *slope;
 };
 
 /* transom: NULL without one. */
 igabem_status exterior_system_create(const struct influence *hull,
                                      const struct free_surface *surface,
-                                     const struct transom *transom, double damping,
-                                     struct exterior_system *system);
+                                     const struct transom *transom, struct exterior_system *system);
 void exterior_system_free(struct exterior_system *system);
 
 #endif

@@ -98,8 +98,8 @@ static igabem_status check(const igabem_options *options)
         status = check_range("surface_rows", options->surface_rows, 4.0, 1000.0);
     if (status == IGABEM_OK && options->surface_first != 0.0)
         status = check_range("surface_first", options->surface_first, 0.1, 10.0);
-    if (status == IGABEM_OK)
-        status = check_range("surface_damping", options->surface_damping, 0.0, 10.0);
+    if (status == IGABEM_OK && options->surface_damping != 0.0)
+        status = check_range("surface_damping", options->surface_damping, 1e-6, 10.0);
     if (status == IGABEM_OK && options->surface_upstream != 0.0)
         status = check_range("surface_upstream", options->surface_upstream, 0.05, 10.0);
     if (status == IGABEM_OK && options->surface_downstream != 0.0)
@@ -180,6 +180,8 @@ static void choose_surface(const igabem_hull *hull, igabem_options *options)
         options->surface_rows = fmax(4.0, round(options->surface_cells / 3.0));
     if (options->surface_first == 0.0)
         options->surface_first = 1.0;
+    if (options->surface_damping == 0.0)
+        options->surface_damping = 1.0;
     if (options->surface_upstream == 0.0)
         options->surface_upstream = hull->surface_piercing ? 0.5 : 2.0;
     if (options->surface_downstream == 0.0)

@@ -19,8 +19,7 @@ static double wall_seconds(void)
 static bool same_surface(const igabem_options *a, const igabem_options *b)
 {
     return a->surface_cells == b->surface_cells && a->surface_rows == b->surface_rows &&
-           a->surface_first == b->surface_first && a->surface_damping == b->surface_damping &&
-           a->surface_upstream == b->surface_upstream &&
+           a->surface_first == b->surface_first && a->surface_upstream == b->surface_upstream &&
            a->surface_downstream == b->surface_downstream && a->surface_side == b->surface_side &&
            a->surface_columns == b->surface_columns;
 }
@@ -148,17 +147,18 @@ static igabem_status solve_one(const struct influence *influence,
 {
     size_t n = system->n;
     double scale = 1.0 / solution->k0;
+    double damping = solution->options.surface_damping / sqrt(solution->k0);
     double *right = malloc(n * sizeof *right);
     if (!right)
         return solution_no_memory(n);
     for (size_t k = 0; k < n * n; k++)
-        rows[k] = system->fixed[k] - scale * system->wave[k];
+        rows[k] = system->fixed[k] - scale * system->wave[k] - damping * system->odd[k];
     for (size_t i = 0; i < n; i++)
         right[i] = solution->speed * (system->right[i] + solution->k0 * system->slope[i]);
     const struct matrix matrix = {n, n, rows, influence->threads};
     igabem_status status = linear_lu(&matrix, right, &solution->condition);
     solution->options.solver = IGABEM_SOLVER_LU;
-    solution->memory = 3.0 * (double)(n * n * sizeof *rows);
+    solution->memory = 4.0 * (double)(n * n * sizeof *rows);
     if (status == IGABEM_OK) {
         memcpy(solution->sigma, right, system->hull * sizeof *right);
         status = keep_surface(influence, solution, right + system->hull);
@@ -183,8 +183,7 @@ static igabem_status solve_alike(const struct influence *influence, size_t n,
         alike += !done[m] && same_surface(&solutions[0]->options, &solutions[m]->options);
     igabem_status status = make_surface(influence, solutions[0], &surface, &transom);
     if (status == IGABEM_OK)
-        status = exterior_system_create(influence, surface, transom,
-                                        solutions[0]->options.surface_damping, &system);
+        status = exterior_system_create(influence, surface, transom, &system);
     double *rows = status == IGABEM_OK ? malloc(system.n * system.n * sizeof *rows) : NULL;
     if (status == IGABEM_OK && !rows)
         status = solution_no_memory(system.n);
