@@ -207,6 +207,15 @@ static void test_worst_of_models(void)
     CU_ASSERT_PTR_EQUAL(outcome_best(&several, 3, e), &e[1]);
 }
 
+static size_t violations_of(const struct config *asked, const char *name,
+                            const struct evaluation e[2])
+{
+    for (size_t k = 0; k < constraints_count(); k++)
+        if (strcmp(constraints_name(k), name) == 0)
+            return constraints_violations(asked, k, 2, e);
+    return SIZE_MAX;
+}
+
 /* Of a gain of 50 % the other models see 50 and 10: enough for a fifth of it, not for a half. Then
  * the solver's own C_w alone is the objective. */
 static void test_confirmed_gain(void)
@@ -223,8 +232,10 @@ static void test_confirmed_gain(void)
     CHECK_CLOSE(ratio[1] - upper[1], 0.15, 1e-15);  /* it has 0.9 */
     CU_ASSERT_EQUAL(outcome_objective(&asked, &e[1], &e[0]), 1);
     CU_ASSERT_FALSE(outcome_allowed(&asked, &e[1], &e[0]));
+    CU_ASSERT_EQUAL(violations_of(&asked, "confirm", e), 1);
     asked.confirm = 0.2;
     CU_ASSERT_TRUE(outcome_allowed(&asked, &e[1], &e[0]));
+    CU_ASSERT_EQUAL(violations_of(&asked, "confirm", e), 0);
 }
 
 static const struct check_case cases[] = {

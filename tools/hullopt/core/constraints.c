@@ -419,3 +419,15 @@ void constraints_figures(const struct config *config, size_t k, const struct eva
     f->kept = isnan(f->allowed) || f->excess <= 0;
     print_limit(c, config, f->limit);
 }
+
+size_t constraints_violations(const struct config *config, size_t k, size_t n,
+                              const struct evaluation *list)
+{
+    size_t count = 0;
+    for (size_t i = 1; i < n; i++) {
+        struct constraint_figures f;
+        constraints_figures(config, k, list, &list[i], &f);
+        count += !list[i].failed && !f.kept;
+    }
+    return count;
+}

@@ -53,6 +53,9 @@ struct constraint_figures {
 };
 size_t constraints_count(void);
 const char *constraints_name(size_t k);
+/* How many of n designs that were evaluated break constraint k; parent: the first. */
+size_t constraints_violations(const struct config *config, size_t k, size_t n,
+                              const struct evaluation *list);
 /* Takes constraint k out of a configuration; false: it has none. */
 bool constraints_drop(struct config *config, size_t k);
 void constraints_figures(const struct config *config, size_t k, const struct evaluation *parent,

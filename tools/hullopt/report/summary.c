@@ -64,6 +64,8 @@ static json_t *constraints(const struct results *r)
         put(row, "change", f.change);
         put(row, "largest_ratio", f.ratio);
         put_flag(row, "satisfied", f.kept);
+        put_count(row, "violations",
+                  constraints_violations(r->problem->config, k, r->n, r->evaluations));
         json_result_set(o, f.name, row);
     }
     return o;
