@@ -35,6 +35,9 @@ static void calls_that_can_fail(void)
     CHECK_NULL(nurbs_grid_read(NULL, NULL));
     CHECK_NULL(nurbs_grid_write(NULL, NULL));
     CHECK_NULL(nurbs_grid_sample(NULL, 2, NULL, 2, NULL, NULL));
+    CHECK_NULL(nurbs_mesh_sections(NULL, NULL, NULL));
+    CHECK_NULL(nurbs_patches_sections(NULL, NULL, NULL));
+    CHECK_NULL(nurbs_patches_mesh(NULL, 1.0, NULL));
     CHECK_NULL(nurbs_hull_read(NULL, NULL, NULL));
     CHECK_NULL(nurbs_hull_create(NULL, NULL, NULL));
     CHECK_NULL(nurbs_hull_create_surfaces(2, NULL, NULL, NULL));

@@ -47,7 +47,7 @@ expect 0 "$nurbs" --version
 grep -Eq '^nurbs [0-9]+\.[0-9]+\.[0-9]+$' stdout || fail "--version: $(cat stdout)"
 grep -q 'OpenBLAS.*kernels for [A-Za-z]' stdout || fail "--version tells no kernels: $(cat stdout)"
 for command in make info eval skin fit grid simplify wetted hydrostatics moments closest cut edit \
-    convert plot clean; do
+    convert plot clean sections; do
     expect 0 "$nurbs" $command --help
     grep -q "^usage: nurbs $command" stdout || fail "$command --help"
     expect 2 "$nurbs" $command --no-such-option
@@ -215,6 +215,17 @@ close volume 0.022222222222222222 1e-12
 expect 2 "$nurbs" clean wigley.json ship.json --drop 1
 expect 2 "$nurbs" clean wigley.json ship.json --flip w
 expect 2 "$nurbs" clean wigley.json ship.json --axes xyy
+# Triangles: hydrostatics of their own, and one surface.
+expect 0 "$nurbs" convert "$hulls/bulb.json" bulb.stl
+expect 0 "$nurbs" hydrostatics bulb.stl --json
+close volume 0.0039997615 1e-3
+expect 0 "$nurbs" sections bulb.stl -o surface.json
+says "triangles, lengths taken as metres"
+expect 0 "$nurbs" hydrostatics surface.json --json
+close volume 0.0039997615 1e-3
+expect 0 "$nurbs" sections surface.json -o points.csv --rows 30 --columns 20 --json
+expect 0 "$nurbs" hydrostatics "$hulls/series60.offsets.csv" --json
+expect 2 "$nurbs" sections bulb.stl
 expect 2 "$nurbs" clean wigley.json ship.json --shift 1,2
 expect 0 "$nurbs" clean wigley.json kilometres.json --scale 1000
 expect 0 "$nurbs" info kilometres.json

@@ -1,8 +1,11 @@
 #include "nurbs_tool.h"
 
-static int report(const char *path, const nurbs_hull *hull, bool json)
+#include <string.h>
+#include <strings.h>
+
+static int report(const char *path, const nurbs_hydrostatics *h, const char *note,
+                  const nurbs_hull *hull, bool json)
 {
-    const nurbs_hydrostatics *h = nurbs_hull_hydrostatics(hull);
     if (json)
         return print_json(json_pack(
             "{s:s,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:s,s:o}",
@@ -12,9 +15,8 @@ static int report(const char *path, const nurbs_hull *hull, bool json)
             "waterplane_inertia_y", h->waterplane_inertia_y, "beam", h->beam, "draft", h->draft,
             "keel_draft", h->keel_draft, "x_aft", h->x_aft, "x_fore", h->x_fore, "transom_area",
             h->transom_area, "section_area_max", h->section_area_max, "section_area_max_x",
-            h->section_area_max_x, "error", h->error, "note", nurbs_hull_step(hull, 0), "warnings",
-            hull_steps(hull)));
-    printf("%s: %s (metres; both sides; z from the still water)\n", path, nurbs_hull_step(hull, 0));
+            h->section_area_max_x, "error", h->error, "note", note, "warnings", hull_steps(hull)));
+    printf("%s: %s (metres; both sides; z from the still water)\n", path, note);
     printf("  displaced volume       %.8g\n  wetted area            %.8g\n", h->volume,
            h->wetted_area);
     printf("  centre of buoyancy     x %.8g, z %.8g\n", h->centroid[0], h->centroid[2]);
@@ -30,20 +32,50 @@ static int report(const char *path, const nurbs_hull *hull, bool json)
     return CLI_OK;
 }
 
+/* Triangles as they are, cut exactly at the level. */
+static int report_mesh(const char *path, double unit, double level, bool json)
+{
+    nurbs_mesh *mesh = NULL;
+    nurbs_hydrostatics h;
+    char note[80];
+    int code = CLI_OK;
+    if (nurbs_mesh_read(path, unit, &mesh) != NURBS_OK)
+        return library_failure();
+    if (nurbs_mesh_hydrostatics(mesh, level, &h) != NURBS_OK)
+        code = cli_fail("%s: %s", path, nurbs_last_error());
+    snprintf(note, sizeof note, "%zu triangles cut at z = %g m", nurbs_mesh_triangles(mesh), level);
+    h.centroid[2] -= level;
+    if (code == CLI_OK)
+        code = report(path, &h, note, NULL, json);
+    nurbs_mesh_free(mesh);
+    return code;
+}
+
+static bool is_mesh(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    return dot && (strcasecmp(dot, ".stl") == 0 || strcasecmp(dot, ".obj") == 0);
+}
+
 static int run(int argc, char **argv)
 {
     nurbs_hull_options hull_options;
     nurbs_hull *hull = NULL;
     bool json = false;
+    double unit = 1;
     nurbs_hull_options_init(&hull_options);
     hull_options.simplify = 0;
     const tool_option options[] = {{"level", OPTION_NUMBER, &hull_options.level, 0, 0},
-                                   {"tolerance", OPTION_LENGTH, &hull_options.cut, 0, 0}};
+                                   {"tolerance", OPTION_LENGTH, &hull_options.cut, 0, 0},
+                                   {"unit", OPTION_LENGTH, &unit, 0, 0}};
     int code = parse_options(argc, argv, OPTION_COUNT_OF(options), options, one_file, &json);
+    if (code == CLI_OK && is_mesh(argv[optind]))
+        return report_mesh(argv[optind], unit, hull_options.level, json);
     if (code == CLI_OK)
         code = load_hull(argv[optind], &hull_options, &hull);
     if (code == CLI_OK)
-        code = report(argv[optind], hull, json);
+        code = report(argv[optind], nurbs_hull_hydrostatics(hull), nurbs_hull_step(hull, 0), hull,
+                      json);
     nurbs_hull_free(hull);
     return code;
 }
@@ -55,4 +87,6 @@ const subcommand hydrostatics_command = {
     "are\n"
     "  no hull are left out, and what was done to the file is told on stderr.\n"
     "  --level Z      height of the water surface (0)\n"
-    "  --tolerance T  metres the cut surface may move (1e-5 of the extent in x)\n"};
+    "  --tolerance T  metres the cut surface may move (1e-5 of the extent in x)\n"
+    "  FILE may be triangles (.stl, .obj), which are cut as they are, or an offset table.\n"
+    "  --unit U       metres of a unit of such triangles: 0.001 for millimetres (1)\n"};

@@ -3,10 +3,10 @@
 #include <string.h>
 
 static const subcommand *const commands[] = {
-    &make_command,         &info_command,    &eval_command,     &skin_command,
-    &fit_command,          &grid_command,    &simplify_command, &wetted_command,
-    &hydrostatics_command, &moments_command, &closest_command,  &cut_command,
-    &edit_command,         &convert_command, &plot_command,     &clean_command,
+    &make_command,    &info_command,     &eval_command,   &skin_command,         &fit_command,
+    &grid_command,    &simplify_command, &wetted_command, &hydrostatics_command, &moments_command,
+    &closest_command, &cut_command,      &edit_command,   &convert_command,      &plot_command,
+    &clean_command,   &sections_command,
 };
 enum { COMMANDS = sizeof commands / sizeof commands[0] };
 

@@ -18,8 +18,8 @@ typedef struct subcommand {
 
 extern const subcommand make_command, info_command, eval_command, skin_command, fit_command,
     grid_command, simplify_command, wetted_command, hydrostatics_command, convert_command,
-    plot_command, edit_command, closest_command, cut_command, moments_command,
-    clean_command;
+    plot_command, edit_command, closest_command, cut_command, moments_command, clean_command,
+    sections_command;
 
 /* What the value of an option is, and where it goes. */
 typedef enum option_kind {

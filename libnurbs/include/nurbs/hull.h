@@ -38,19 +38,24 @@ typedef struct nurbs_hull_options {
     double
         cut; /**< how far a cut surface may lie from the file's, m; NAN: 1e-5 of the extent in x */
     double
-        simplify;   /**< tolerance of knot removal, over the extent in x (a rebuilt hull: over the
-                         reference length); 0: none; NAN: 1e-4 for surfaces that are cut, else none */
-    double sinkage; /**< m, positive down; 0 */
-    double trim;    /**< radians, positive bow up, about x = pivot in the still water; 0 */
-    double pivot;   /**< m; 0 */
-    bool unbounded; /**< no water surface: the body is moved below z = 0 and not cut; false */
-    double reserved[8]; /**< 0: room for members of later releases */
+        simplify;    /**< tolerance of knot removal, over the extent in x (a rebuilt hull: over the
+                          reference length); 0: none; NAN: 1e-4 for surfaces that are cut, else none */
+    double sinkage;  /**< m, positive down; 0 */
+    double trim;     /**< radians, positive bow up, about x = pivot in the still water; 0 */
+    double pivot;    /**< m; 0 */
+    bool unbounded;  /**< no water surface: the body is moved below z = 0 and not cut; false */
+    bool single;     /**< several patches are made one surface through their sections
+                          (nurbs_patches_sections()), with its design grid; false */
+    double sections; /**< tolerance of that, and of the surface through a mesh, m; 0 or NAN: 5e-4,
+                          of a mesh 6e-4 of the extent in x */
+    double reserved[7]; /**< 0: room for members of later releases */
 } nurbs_hull_options;
 
 /** Fills the defaults; nothing when NULL. */
 NURBS_API void nurbs_hull_options_init(nurbs_hull_options *options);
 
-/** Reads a hull: any file that nurbs_patches_read() takes. options NULL: defaults.
+/** Reads a hull: any file that nurbs_patches_read() takes; .stl and .obj, in metres, through
+ * nurbs_mesh_sections(); .offsets.csv, .stations and grids .csv, skinned. options NULL: defaults.
  * Errors: those of the reader; NURBS_ERROR_GEOMETRY, with file, patch and place: nothing below the
  * still water, a section that crosses it more than once, an opening below the water elsewhere than
  * at the stern, patches that lie on each other or share an edge by three, sides that are no mirror
@@ -104,7 +109,8 @@ NURBS_API nurbs_status nurbs_hull_share_space(nurbs_hull *parent, const nurbs_gr
 /** Whether a rebuilt hull lies in the shared space. */
 NURBS_API bool nurbs_hull_shares_space(const nurbs_hull *hull);
 
-/** Reads the patches of a hull's file, faces that loops cut out of B-spline surfaces resampled.
+/** Reads the patches of a hull's file, faces that loops cut out of B-spline surfaces resampled; one
+ * surface of a file that holds none, as nurbs_hull_read().
  * @param tolerance  of that, m; NAN: 1e-5 of the extent in x
  * @param report     as in nurbs_patches_read_reported() */
 NURBS_API nurbs_status nurbs_hull_read_patches(const char *path, double tolerance,

@@ -26,6 +26,7 @@
 #include <nurbs/patches.h>
 #include <nurbs/primitives.h>
 #include <nurbs/section.h>
+#include <nurbs/sections.h>
 #include <nurbs/simplify.h>
 #include <nurbs/status.h>
 #include <nurbs/surface.h>

@@ -11,7 +11,7 @@
 enum { SAMPLES = 65, PROBES = 5 };
 
 /* Relative to the extent, as the solver has them. */
-static const double join = 1e-4, stern_reach = 0.05;
+static const double join = 1e-4, stern_reach = 0.05, centre_reach = 1e-5;
 static const double short_edge = 20; /* times the joining distance: shorter ones cannot be joined */
 static const double slack = 2e-3;    /* of an edge's range, where a joint ends */
 
@@ -19,7 +19,8 @@ typedef struct search {
     const nurbs_patches *patches;
     const nurbs_topology *topology;
     bool half;
-    double extent, aft, fore, plane; /* m */
+    double extent, aft, fore; /* m */
+    double plane, centre;     /* m: what lies so near is in the water, in the centre plane */
     bool open_aft, open_fore;
 } search;
 
@@ -80,7 +81,7 @@ static nurbs_status check_edge(search *s, size_t e)
         const double *p = points[k];
         foremost = fmax(foremost, p[0]);
         aftmost = fmin(aftmost, p[0]);
-        bool water = fabs(p[2]) <= s->plane, centre = s->half && fabs(p[1]) <= s->plane,
+        bool water = fabs(p[2]) <= s->plane, centre = s->half && fabs(p[1]) <= s->centre,
              inner = k > 0 && k + 1 < SAMPLES;
         size_t joined = joined_at(s, e, t[k], -slack * range, other);
         if (inner && !centre && joined > 1 && other[0] != other[1])
@@ -199,7 +200,8 @@ nurbs_status hull_check_edges(const nurbs_hull *hull, bool *bow_aft)
                 .extent = extent,
                 .aft = box.lower[0],
                 .fore = box.upper[0],
-                .plane = HULL_CLEARANCE * extent};
+                .plane = HULL_CLEARANCE * extent,
+                .centre = centre_reach * extent};
     if (!status)
         status = check_all(&s);
     *bow_aft = status && s.open_fore && !s.open_aft;

@@ -1,6 +1,7 @@
 #include "hull/hull.h"
 
 #include "core/error.h"
+#include "hull/source.h"
 #include "hull/space.h"
 
 #include <nurbs/io.h>
@@ -19,7 +20,8 @@ static const double default_cut = 1e-5; /* of the extent */
 void nurbs_hull_options_init(nurbs_hull_options *options)
 {
     if (options)
-        *options = (nurbs_hull_options){.draft = NAN, .length = NAN, .cut = NAN, .simplify = NAN};
+        *options = (nurbs_hull_options){
+            .draft = NAN, .length = NAN, .cut = NAN, .simplify = NAN, .sections = NAN};
 }
 
 static nurbs_status check_options(const nurbs_hull_options *o)
@@ -30,6 +32,9 @@ static nurbs_status check_options(const nurbs_hull_options *o)
                           o->level, o->sinkage, o->trim, o->pivot);
     if (!isnan(o->length) && !(o->length > 0 && isfinite(o->length)))
         return nurbs_fail(NURBS_ERROR_ARGUMENT, "length %g m, expected a positive one", o->length);
+    if (o->sections < 0 || isinf(o->sections))
+        return nurbs_fail(NURBS_ERROR_ARGUMENT, "tolerance %g m of sections, expected > 0",
+                          o->sections);
     if (o->cut <= 0 || isinf(o->cut) || o->simplify < 0 || isinf(o->simplify))
         return nurbs_fail(NURBS_ERROR_ARGUMENT,
                           "tolerances %g of the cut and %g of the simplification, expected "
@@ -166,6 +171,8 @@ static nurbs_status place_and_wet(nurbs_hull *hull)
 {
     bool bow_aft = false;
     nurbs_status status = clean(hull);
+    if (!status && hull->options.single && nurbs_patches_count(hull->full) > 1)
+        status = hull_join(hull);
     if (!status)
         status = hull_place(hull);
     if (!status)
@@ -176,7 +183,9 @@ static nurbs_status place_and_wet(nurbs_hull *hull)
         if (!status)
             status = wet_and_check(hull, &bow_aft);
     }
-    return status ? status : hull_measure(hull);
+    if (!status)
+        status = hull_measure(hull);
+    return status ? status : hull_check_volume(hull);
 }
 
 static nurbs_status make(nurbs_hull *hull)
@@ -207,6 +216,8 @@ static nurbs_status start(const nurbs_hull_options *options, nurbs_hull **hull)
         result->options = *options;
     else
         nurbs_hull_options_init(&result->options);
+    if (result->options.sections == 0)
+        result->options.sections = NAN;
     nurbs_status status = check_options(&result->options);
     if (status) {
         nurbs_hull_free(result);
@@ -224,6 +235,9 @@ nurbs_status nurbs_hull_read_patches(const char *path, double tolerance, nurbs_p
     hull_box box;
     if (!path || !patches || !report || report_size == 0)
         return nurbs_fail(NURBS_ERROR_ARGUMENT, "path, patches or report is NULL");
+    double volume;
+    if (hull_source_of(path) != HULL_SOURCE_PATCHES)
+        return hull_source_read(path, NAN, 0, patches, &volume, report, report_size);
     nurbs_status status = nurbs_patches_read_reported(path, 0.0, patches, report, report_size);
     if (status || !strstr(report, "the whole surface is kept"))
         return status;
@@ -241,7 +255,12 @@ static nurbs_status read_file(const char *path, nurbs_hull *hull)
 {
     char report[REPORT_SIZE];
     nurbs_status status =
-        nurbs_hull_read_patches(path, hull->options.cut, &hull->full, report, sizeof report);
+        hull_source_of(path) == HULL_SOURCE_PATCHES
+            ? nurbs_hull_read_patches(path, hull->options.cut, &hull->full, report, sizeof report)
+            : hull_source_read(path, hull->options.sections, hull->options.level, &hull->full,
+                               &hull->triangles, report, sizeof report);
+    if (!isnan(hull->options.draft) || hull->options.unbounded)
+        hull->triangles = 0;
     return !status && *report ? hull_tell(hull, "%s", report) : status;
 }
 

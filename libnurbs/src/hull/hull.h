@@ -14,6 +14,7 @@ struct nurbs_hull {
     double extent;        /* of the file in x, m */
     double level, length, lpp, bound;
     size_t *number;   /* [patches of full] in the file */
+    double triangles; /* volume of the triangles that the surface stands for, m^3; 0: not known */
     double lifted;    /* how far control points moved to y >= 0, m */
     double deviation; /* of cut surfaces from the full ones, m */
     bool half, cut, waterline, shares_space;
@@ -37,6 +38,11 @@ __attribute__((format(printf, 2, 3))) nurbs_status hull_tell(nurbs_hull *hull, c
 
 /* Makes `patches`, which it takes, the full ones instead of those it has. */
 void hull_replace_full(nurbs_hull *hull, nurbs_patches *patches);
+
+/* Makes one surface of the full ones, through their sections. */
+nurbs_status hull_join(nurbs_hull *hull);
+/* Refuses a surface whose volume is another one than that of what it was made of. */
+nurbs_status hull_check_volume(const nurbs_hull *hull);
 
 /* An empty set with the length and note of another. */
 nurbs_status hull_start_patches(const nurbs_patches *from, nurbs_patches **to);

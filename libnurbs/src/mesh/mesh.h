@@ -23,4 +23,8 @@ struct nurbs_mesh {
 /* Fills edges and sides, turns neighbours alike and pieces outwards. */
 nurbs_status mesh_connect(nurbs_mesh *mesh);
 
+/* As nurbs_mesh_section(), where a function with these values at the vertices is zero: a curved
+ * sheet. */
+nurbs_status mesh_section_at(const nurbs_mesh *mesh, const double *height, nurbs_contour *contour);
+
 #endif

@@ -11,7 +11,7 @@
 /* Every triangle that the plane cuts joins two of its edges; an edge has up to two such links. */
 typedef struct cut {
     const nurbs_mesh *mesh;
-    double *height;         /* [vertices] over the plane */
+    const double *height;   /* [vertices] over the plane */
     size_t (*link)[2];      /* [edges] the edges next along the line; SIZE_MAX: none */
     unsigned char *visited; /* [edges] */
     nurbs_contour *contour;
@@ -121,26 +121,18 @@ static nurbs_status follow_all(cut *c)
     return status;
 }
 
-nurbs_status nurbs_mesh_section(const nurbs_mesh *mesh, const double normal[3], double offset,
-                                nurbs_contour *contour)
+nurbs_status mesh_section_at(const nurbs_mesh *mesh, const double *height, nurbs_contour *contour)
 {
-    if (!mesh || !normal || !contour)
-        return nurbs_fail(NURBS_ERROR_ARGUMENT, "no mesh, normal or contour");
     *contour = (nurbs_contour){0};
-    double n[3] = {normal[0], normal[1], normal[2]}, length = unit3(n);
-    if (!(length > 0))
-        return nurbs_fail(NURBS_ERROR_ARGUMENT, "a plane without normal");
     cut c = {.mesh = mesh,
-             .height = malloc(mesh->vertices * sizeof(double)),
+             .height = height,
              .link = malloc(mesh->edges * sizeof *c.link),
              .visited = calloc(mesh->edges, 1),
              .contour = contour};
     nurbs_status status = NURBS_OK;
-    if (!c.height || !c.link || !c.visited)
+    if (!c.link || !c.visited)
         status =
             nurbs_fail(NURBS_ERROR_MEMORY, "no memory for a section of %zu edges", mesh->edges);
-    for (size_t k = 0; k < mesh->vertices && status == NURBS_OK; k++)
-        c.height[k] = dot3(mesh->points + 3 * k, n) - offset / length;
     if (status == NURBS_OK) {
         memset(c.link, 0xff, mesh->edges * sizeof *c.link);
         find_links(&c);
@@ -151,10 +143,29 @@ nurbs_status nurbs_mesh_section(const nurbs_mesh *mesh, const double normal[3], 
         if (!contour->first)
             status = nurbs_fail(NURBS_ERROR_MEMORY, "no memory for a section");
     }
-    free(c.height);
     free(c.link);
     free(c.visited);
     if (status != NURBS_OK)
         nurbs_contour_free(contour);
+    return status;
+}
+
+nurbs_status nurbs_mesh_section(const nurbs_mesh *mesh, const double normal[3], double offset,
+                                nurbs_contour *contour)
+{
+    if (!mesh || !normal || !contour)
+        return nurbs_fail(NURBS_ERROR_ARGUMENT, "no mesh, normal or contour");
+    *contour = (nurbs_contour){0};
+    double n[3] = {normal[0], normal[1], normal[2]}, length = unit3(n);
+    if (!(length > 0))
+        return nurbs_fail(NURBS_ERROR_ARGUMENT, "a plane without normal");
+    double *height = malloc((mesh->vertices + 1) * sizeof *height);
+    if (!height)
+        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for a section of %zu vertices",
+                          mesh->vertices);
+    for (size_t k = 0; k < mesh->vertices; k++)
+        height[k] = dot3(mesh->points + 3 * k, n) - offset / length;
+    nurbs_status status = mesh_section_at(mesh, height, contour);
+    free(height);
     return status;
 }

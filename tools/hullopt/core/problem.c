@@ -145,6 +145,7 @@ bool problem_read(const struct config *config, struct problem *problem)
     nurbs_hull_options options;
     nurbs_hull_options_init(&options);
     options.simplify = config->tolerance;
+    options.single = true; /* a family moves the design grid of one surface */
     *problem = (struct problem){.config = config};
     bool ok = nurbs_hull_read(config->hull, &options, &problem->source) == NURBS_OK ||
               core_fail("%s", nurbs_last_error());
