@@ -156,6 +156,14 @@ static void test_refusals(void)
     CU_ASSERT_PTR_NOT_NULL(strstr(sentence, "cells of the free surface"));
     igabem_solution_free(solution);
     igabem_hull_free(hull);
+    hull = wigley_hull(0.25, 0.0625, 4, 2); /* nu_s 0.45 */
+    options = exterior(0.4, 12.0);
+    solution = solve(hull, &options);
+    sentence = igabem_solution_warning(solution, NULL, 0);
+    CU_ASSERT_PTR_NOT_NULL_FATAL(sentence);
+    CU_ASSERT_PTR_NOT_NULL(strstr(sentence, "nu_s"));
+    igabem_solution_free(solution);
+    igabem_hull_free(hull);
 }
 
 /* A wedge with a dry transom: the water leaves the rim at its height, also where nothing is solved

@@ -63,6 +63,18 @@ static bool full_bow(const struct subject *s, struct sentence *sentence)
                          "to 15 %%");
 }
 
+/* The lines of the grid turn with the waterline; beyond this no refinement was seen to settle. */
+static bool steep_end(const struct subject *s, struct sentence *sentence)
+{
+    return s->solution && s->solution->potential && s->info->surface_piercing &&
+           s->info->nu_s > blunt_entrance &&
+           say(sentence,
+               "waterline end with nu_s %.2g, beyond %g: the free surface beside it is not known "
+               "to "
+               "converge, do not trust C_w",
+               s->info->nu_s, blunt_entrance);
+}
+
 static bool strange_length(const struct subject *s, struct sentence *sentence)
 {
     double extent = s->info->hydrostatics.x_fore - s->info->hydrostatics.x_aft;
@@ -149,8 +161,8 @@ static bool pressure_gap(const struct subject *s, struct sentence *sentence)
 }
 
 static bool (*const checks[])(const struct subject *subject, struct sentence *sentence) = {
-    closed_transom,   full_bow,          strange_length, coarse_mesh,    strange_speed,
-    strange_attitude, negative_pressure, pressure_gap,   coarse_surface,
+    closed_transom, steep_end,        full_bow,          strange_length, coarse_mesh,
+    strange_speed,  strange_attitude, negative_pressure, pressure_gap,   coarse_surface,
 };
 
 static const char *find(const struct subject *subject, size_t number)
