@@ -1,4 +1,5 @@
 /* Expressions: recursive descent into a list of operations on a stack. */
+#include "constants.h"
 #include "error.h"
 
 #include <bayesopt/expression.h>
@@ -132,7 +133,7 @@ static void parse_name(struct parser *p)
         }
     if (length == 2 && strncmp(p->at, "pi", 2) == 0) {
         p->at += length;
-        emit(p, NUMBER, 3.14159265358979323846, 0);
+        emit(p, NUMBER, PI, 0);
         return;
     }
     for (size_t f = 0; f < FUNCTIONS; f++)

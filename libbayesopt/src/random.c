@@ -1,5 +1,7 @@
 #include "random.h"
 
+#include "constants.h"
+
 #include <math.h>
 
 uint64_t random_hash(uint64_t bits)
@@ -46,7 +48,7 @@ double random_normal(struct random_stream *stream)
 {
     /* Box and Muller; the sine half is thrown away to keep the stream without memory. */
     double radius = sqrt(-2 * log(random_uniform(stream)));
-    return radius * cos(6.283185307179586 * random_uniform(stream));
+    return radius * cos(2 * PI * random_uniform(stream));
 }
 
 size_t random_below(struct random_stream *stream, size_t n)
