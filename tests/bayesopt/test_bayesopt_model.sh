@@ -64,6 +64,11 @@ done
 
 # An overloaded or lost server says nothing of the points: they are given back.
 touch busy
+sed 's/evaluations: 24/evaluations: 28/' bowl.yaml >few.yaml
+expect 0 "$tool" run few.yaml --store bowl.db
+says '2 points are lost to failures of the moment, the last of them is 28'
+expect 0 "$tool" tell bowl.db --retry 27
+expect 0 "$tool" tell bowl.db --retry 28
 sed 's/evaluations: 24/evaluations: 34/' bowl.yaml >busy.yaml
 expect 1 "$tool" run busy.yaml --store bowl.db
 says '5 evaluations in a row failed alike.*Busy: try later'

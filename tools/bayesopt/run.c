@@ -311,6 +311,23 @@ static bool others_work(struct runner *r)
     return false;
 }
 
+/* A budget spent on failures that say nothing of their points is no finished study. */
+static void tell_of_lost(const struct runner *r)
+{
+    size_t lost = 0;
+    uint64_t last = 0;
+    bayesopt_point p;
+    for (size_t i = 0; !bayesopt_get(r->bo, i, &p); i++)
+        if (p.state == BAYESOPT_STATE_LOST) {
+            lost++;
+            last = p.id;
+        }
+    if (lost)
+        cli_fail("%zu points are lost to failures of the moment, the last of them is %llu; "
+                 "'bayesopt tell STORE --retry %llu' has it asked again",
+                 lost, (unsigned long long)last, (unsigned long long)last);
+}
+
 /* Ranks share the store and the work; the first of them waits for the others and reports. */
 static bool conclude(struct runner *r)
 {
@@ -319,6 +336,7 @@ static bool conclude(struct runner *r)
         return true;
     while (rank() == 0 && !interrupted && others_work(r))
         nanosleep(&pause, NULL);
+    tell_of_lost(r);
     return report(r);
 }
 
