@@ -332,9 +332,9 @@ static void test_files(void)
 }
 
 static const struct check_case cases[] = {
-    {"ticks", test_ticks},       {"frames", test_frame},      {"escaped text", test_escape},
-    {"colour maps", test_maps},  {"charts", test_charts},     {"crowded labels", test_crowd},
-    {"history", test_history},   {"fields", test_fields},     {"wave patterns", test_waves},
+    {"ticks", test_ticks},       {"frames", test_frame},  {"escaped text", test_escape},
+    {"colour maps", test_maps},  {"charts", test_charts}, {"crowded labels", test_crowd},
+    {"history", test_history},   {"fields", test_fields}, {"wave patterns", test_waves},
     {"lines plans", test_lines}, {"files", test_files},
 };
 

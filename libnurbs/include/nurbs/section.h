@@ -52,9 +52,9 @@ typedef struct nurbs_contour {
 } nurbs_contour;
 
 /** Fills the lines where normal . p = offset. The surface is searched on `parts` x `parts` cells a
- * knot span (1 to 64; 0: 128 a direction, at least 6 a span): smaller islands are missed; the points on the cells' edges are found to
- * rounding. A closed line repeats its first point. A plane that only touches gives no line.
- * Complexity: evaluation of all cells' corners. */
+ * knot span (1 to 64; 0: 128 a direction, at least 6 a span): smaller islands are missed; the
+ * points on the cells' edges are found to rounding. A closed line repeats its first point. A plane
+ * that only touches gives no line. Complexity: evaluation of all cells' corners. */
 NURBS_API nurbs_status nurbs_surface_contour(const nurbs_surface *surface, const double normal[3],
                                              double offset, int parts, nurbs_contour *contour);
 /** Frees the arrays; the struct itself is the caller's. */
