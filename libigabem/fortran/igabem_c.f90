@@ -93,7 +93,9 @@ module igabem_c
     real(c_double) :: trim
     real(c_double) :: pivot
     logical(c_bool) :: unbounded
-    real(c_double) :: reserved(8)
+    logical(c_bool) :: single
+    real(c_double) :: sections
+    real(c_double) :: reserved(7)
   end type
 
   type, bind(c) :: igabem_hull_info

@@ -22,14 +22,17 @@ extern "C" {
 /** Most corners that a section may keep. */
 #define NURBS_SECTIONS_CORNERS 8
 
+/** How sections are laid and fitted. */
 typedef struct nurbs_sections_options {
     size_t rows;       /**< sections, 0 or 8 to 400; 0: as many as the tolerance takes */
     size_t columns;    /**< points of each, 0 or 8 to 400; 0: likewise */
     double tolerance;  /**< m: how far the surface may lie from the hull; NAN: 5e-4 of its extent */
     double kink_angle; /**< radians: sections and keel that turn by more at a point keep a corner;
                           20 degrees */
+    double reserved[8]; /**< 0: room for members of later releases */
 } nurbs_sections_options;
 
+/** Fills the defaults; nothing when NULL. */
 NURBS_API void nurbs_sections_options_init(nurbs_sections_options *options);
 
 /** What was made of a hull. Zeroed, it is empty; nurbs_sections_free() frees what it holds. */
@@ -43,6 +46,7 @@ typedef struct nurbs_sections {
     double place[3];  /**< where */
     double left_out;  /**< m: greatest length of what a sheet met beside the section: fins, rudders,
                            inner faces */
+    double reserved[8]; /**< 0: room for members of later releases */
 } nurbs_sections;
 
 /** Fills the sections and the surface through them of a hull of triangles, x forward, z up, one
@@ -57,6 +61,7 @@ NURBS_API nurbs_status nurbs_mesh_sections(const nurbs_mesh *mesh,
 NURBS_API nurbs_status nurbs_patches_sections(const nurbs_patches *patches,
                                               const nurbs_sections_options *options,
                                               nurbs_sections *sections);
+/** Frees them; takes NULL. */
 NURBS_API void nurbs_sections_free(nurbs_sections *sections);
 
 /** Creates triangles of patches, fine enough that they lie within about `tolerance` metres of the
