@@ -200,6 +200,32 @@ nurbs_status hull_check_volume(const nurbs_hull *hull)
                       volume, hull->triangles);
 }
 
+/* A hull that ends at the water goes on doing so: upper control points near the level are put
+ * there.
+ */
+static nurbs_status settle_top(const nurbs_hull *hull, nurbs_surface **surface)
+{
+    const size_t n[2] = {nurbs_surface_size(*surface, 0), nurbs_surface_size(*surface, 1)};
+    const int degree[2] = {nurbs_surface_degree(*surface, 0), nurbs_surface_degree(*surface, 1)};
+    nurbs_surface *settled = NULL;
+    double *points = malloc(3 * n[0] * n[1] * sizeof *points);
+    if (!points)
+        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu points", n[0] * n[1]);
+    memcpy(points, nurbs_surface_points(*surface), 3 * n[0] * n[1] * sizeof *points);
+    for (size_t i = 0; i < n[0]; i++)
+        if (fabs(points[3 * i * n[1] + 2] - hull->level) <= fineness * hull->extent)
+            points[3 * i * n[1] + 2] = hull->level;
+    nurbs_status status =
+        nurbs_surface_create(degree, n, nurbs_surface_knots(*surface, 0),
+                             nurbs_surface_knots(*surface, 1), points, NULL, &settled);
+    free(points);
+    if (status)
+        return status;
+    nurbs_surface_free(*surface);
+    *surface = settled;
+    return NURBS_OK;
+}
+
 nurbs_status hull_join(nurbs_hull *hull)
 {
     nurbs_sections s = {0};
@@ -209,6 +235,8 @@ nurbs_status hull_join(nurbs_hull *hull)
     nurbs_sections_options_init(&options);
     options.tolerance = hull->options.sections;
     nurbs_status status = nurbs_patches_sections(hull->full, &options, &s);
+    if (!status)
+        status = settle_top(hull, &s.surface);
     if (!status)
         status = wrap(s.surface, s.grid, s.u, s.v, hull->lpp, &one);
     if (!status)
