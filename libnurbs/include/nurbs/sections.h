@@ -41,7 +41,7 @@ typedef struct nurbs_sections {
     nurbs_surface *surface; /**< nurbs_skin_light() of it, degree 3 */
     double *u, *v;          /**< parameters of rows and columns */
     size_t corners, corner[NURBS_SECTIONS_CORNERS]; /**< columns of corners: chines */
-    double deviation; /**< m: the largest distance of the surface from the hull, on 5 x 3 places
+    double deviation; /**< m: the largest distance of the surface from the hull, on 3 x 2 places
                            between neighbouring points */
     double place[3];  /**< where */
     double left_out;  /**< m: greatest length of what a sheet met beside the section: fins, rudders,
