@@ -163,6 +163,8 @@ static void test_refusals(void)
     CU_ASSERT_PTR_NOT_NULL_FATAL(sentence);
     CU_ASSERT_PTR_NOT_NULL(strstr(sentence, "nu_s"));
     igabem_solution_free(solution);
+    options.surface_first = 0.5; /* slopes up to 0.5: 0.6 is needed */
+    refused(igabem_solve(hull, &options, &none), IGABEM_ERROR_GEOMETRY, "surface_first 0.5");
     igabem_hull_free(hull);
 }
 

@@ -86,13 +86,14 @@ typedef struct igabem_options {
 
     /* Of a formulation with a potential, the free surface that it solves on; 0: by the rule given.
      */
-    double surface_cells;    /**< cells along the hull; 48, over a submerged one 24 */
-    double surface_rows;     /**< rows of cells from the hull outwards; a third of those */
-    double surface_first;    /**< width of the first row as a share of a cell's length; 1 */
-    double surface_damping;  /**< factor of the least damping of short waves across the stream
-                                (theory.md, section 12), at least 1e-6; 1 */
-    double surface_upstream; /**< extent ahead of the hull as a share of its length; 0.5, over a
-                                submerged one 2 */
+    double surface_cells;      /**< cells along the hull; 48, over a submerged one 24 */
+    double surface_rows;       /**< rows of cells from the hull outwards; a third of those */
+    double surface_first;      /**< width of the first row as a share of a cell's length, at least
+                                  1.25 times the waterline's slope; 1 */
+    double surface_damping;    /**< factor of the least damping of short waves across the stream
+                                  (theory.md, section 12), at least 1e-6; 1 */
+    double surface_upstream;   /**< extent ahead of the hull as a share of its length; 0.5, over a
+                                  submerged one 2 */
     double surface_downstream; /**< aft of it; 1 */
     double surface_side;       /**< from the centre line outwards; 0.75 */
     double surface_columns;    /**< of cells aft of the half of a dry transom; 6 */

@@ -117,6 +117,27 @@ static void fill_elements(struct free_surface *surface)
         }
 }
 
+/* Beside a waterline that crosses more than this share of the first row in a cell's length the
+ * operator amplifies short waves (theory.md, section 12). */
+static const double skew_most = 0.8;
+
+static igabem_status check_skew(const struct free_surface *surface)
+{
+    for (size_t i = surface->bow; i < surface->stern && surface->waterline.n; i++) {
+        double xi = (double)i, across = free_surface_y(surface, xi, 0);
+        double skew = fabs(free_surface_y(surface, xi + 1.0, 0) - across);
+        double row = free_surface_y(surface, xi + 0.5, 2) - free_surface_y(surface, xi + 0.5, 0);
+        if (skew > skew_most * row)
+            return igabem_fail(IGABEM_ERROR_GEOMETRY,
+                               "the waterline is %.3g times as steep at x = %.6g m as a first row "
+                               "of surface_first %.3g can follow: expected at least %.3g",
+                               skew / (skew_most * row), surface->x0 - surface->dx * (xi + 0.5),
+                               surface->first / surface->dx,
+                               skew / row / skew_most * surface->first / surface->dx);
+    }
+    return IGABEM_OK;
+}
+
 igabem_status free_surface_create(const struct free_surface_rule *rule,
                                   const struct density *density, const double ends[2],
                                   struct free_surface **result)
@@ -161,6 +182,11 @@ igabem_status free_surface_create(const struct free_surface_rule *rule,
     }
     for (size_t k = 0; k <= 2 * ny; k++)
         surface->offset[k] = first * series(surface->growth, 0.5 * (double)k);
+    status = check_skew(surface);
+    if (status != IGABEM_OK) {
+        free_surface_free(surface);
+        return status;
+    }
     fill_elements(surface);
     *result = surface;
     return IGABEM_OK;
