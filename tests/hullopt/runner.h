@@ -107,7 +107,7 @@ static inline void runner_configuration(const struct runner *runner, const char 
              "grid: {sections: 21, girth: 9}\n"
              "latent: {samples: 200, variance: 0.95}\n"
              "flow: {froude: 0.316}\n"
-             "solver: {formulation: hogner, tolerance: 1e-3}\n"
+             "solver: {formulation: hogner, tolerance: 1e-3, surface_cells: 8}\n"
              "reconstruction: {tolerance: 1e-3}\n"
              "constraints: {displacement: 0.05}\n"
              "search: {initial: %d, iterations: %d}\n"

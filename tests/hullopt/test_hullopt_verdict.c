@@ -25,10 +25,11 @@ static void test_confirmed(void)
     struct verdict v;
     verdict_reach(rows, 6, &v);
     CHECK_CLOSE(v.claimed, 0.5, 1e-15);
-    CU_ASSERT_EQUAL(v.models, 3);
-    CU_ASSERT_EQUAL(v.confirm, 3);
+    CU_ASSERT_EQUAL(v.models, 2); /* another stern is no other model */
+    CU_ASSERT_EQUAL(v.confirm, 2);
     CU_ASSERT_TRUE(v.formulations && v.resolution && v.speeds && !v.only_objective);
-    CU_ASSERT_PTR_NOT_NULL(strstr(v.statement, "3 of 3"));
+    CU_ASSERT_TRUE(v.has_sterns && v.sterns);
+    CU_ASSERT_PTR_NOT_NULL(strstr(v.statement, "2 of 2"));
 }
 
 static void test_only_objective(void)
@@ -106,6 +107,18 @@ static void test_filter(void)
     CU_ASSERT_PTR_NOT_NULL(strstr(v.statement, "too full"));
 }
 
+/* Of two other sterns one that loses decides. */
+static void test_sterns(void)
+{
+    const struct verification rows[] = {row(GROUP_OBJECTIVE, 1.0, 0.5),
+                                        row(GROUP_FORMULATION, 1.0, 0.6),
+                                        row(GROUP_STERN, 1.0, 0.8), row(GROUP_STERN, 1.0, 0.5)};
+    struct verdict v;
+    verdict_reach(rows, 4, &v);
+    CU_ASSERT_TRUE(v.has_sterns && !v.sterns && v.formulations);
+    CU_ASSERT_PTR_NOT_NULL(strstr(v.statement, "another length"));
+}
+
 static void test_no_gain(void)
 {
     const struct verification rows[] = {row(GROUP_OBJECTIVE, 1.0, 1.0),
@@ -134,11 +147,11 @@ static void test_plan(void)
     problem.speed[0].stern_length = 0.224; /* by the rule at that speed */
     problem.speed[1].froude = 0.41;
     size_t n = verify_plan(&problem, rows, options);
-    CU_ASSERT_EQUAL(n, 1 + 4 + 2 + 1 + 1 + 2);
+    CU_ASSERT_EQUAL(n, 1 + 5 + 2 + 1 + 1 + 2 * 2);
     CU_ASSERT_EQUAL(rows[0].group, GROUP_OBJECTIVE);
     for (size_t i = 1; i < n; i++) {
         int speed = options[i].froude != frozen->froude;
-        int changed = (options[i].formulation != frozen->formulation) +
+        int changed = (!speed && options[i].formulation != frozen->formulation) +
                       (!speed && options[i].stern_length != frozen->stern_length) +
                       (options[i].refine != frozen->refine) + speed +
                       (isnan(options[i].cutoff_angle) && isnan(options[i].stem_limit));
@@ -146,14 +159,18 @@ static void test_plan(void)
         CU_ASSERT_EQUAL(options[i].froude, rows[i].froude);
         CU_ASSERT_EQUAL(options[i].refine, rows[i].refine);
     }
-    CU_ASSERT_EQUAL(options[n - 2].stern_length, 0.224);
-    CU_ASSERT_EQUAL(rows[n - 2].stern_length, 0.224);
+    CU_ASSERT_EQUAL(options[n - 4].stern_length, 0.224);
+    CU_ASSERT_EQUAL(rows[n - 4].stern_length, 0.224);
+    /* The second solver at every speed. */
+    CU_ASSERT_EQUAL(options[n - 3].formulation, IGABEM_FORMULATION_EXTERIOR);
+    CU_ASSERT_EQUAL(options[n - 1].formulation, IGABEM_FORMULATION_EXTERIOR);
+    CU_ASSERT_EQUAL(options[n - 1].froude, 0.41);
     frozen->formulation = IGABEM_FORMULATION_NEUMANN_KELVIN;
     config.verify_refine = 1;
     problem.speeds = 0;
-    CU_ASSERT_EQUAL(verify_plan(&problem, rows, options), 1 + 4 + 1);
+    CU_ASSERT_EQUAL(verify_plan(&problem, rows, options), 1 + 5 + 1);
     frozen->cutoff_angle = INFINITY; /* submerged: no filter to choose */
-    CU_ASSERT_EQUAL(verify_plan(&problem, rows, options), 1 + 4);
+    CU_ASSERT_EQUAL(verify_plan(&problem, rows, options), 1 + 5);
 }
 
 static const struct check_case cases[] = {
@@ -163,6 +180,7 @@ static const struct check_case cases[] = {
     {"models disagree", test_divided},
     {"missing results", test_missing},
     {"filter of its own", test_filter},
+    {"other sterns", test_sterns},
     {"no gain at all", test_no_gain},
     {"what is verified", test_plan},
 };

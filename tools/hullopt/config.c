@@ -9,6 +9,7 @@
 
 static const struct setting_word NONE[] = {{"none", NAN}, {NULL, 0}};
 static const struct setting_word BY_RULE[] = {{"by rule", NAN}, {NULL, 0}};
+static const struct setting_word SURFACE[] = {{"by rule", 0}, {NULL, 0}};
 static const struct setting_word AUTO[] = {{"auto", -1}, {NULL, 0}};
 static const struct setting_word AS_IN_FILE[] = {{"as in the hull file", 0}, {NULL, 0}};
 
@@ -126,6 +127,9 @@ static const struct setting ROWS[] = {
         "width of the switch there, share of the length", SETTING_INSIDE(0, 1)),
     ROW("solver.spectrum_limit", NUMBER, solver.spectrum_limit,
         "largest tangent of the Kochin integral", SETTING_ABOVE(1)),
+    ROW("solver.surface_cells", NUMBER, solver.surface_cells,
+        "of exterior, cells of the free surface along the hull", SETTING_FROM(4, 1000),
+        .words = SURFACE),
     ROW("solver.tolerance", NUMBER, solver.tolerance, "relative error asked of the quadrature",
         SETTING_INSIDE(0, 0.1)),
     ROW("search.method", CHOICE, method, "how the best design is looked for", .choice = method,

@@ -45,7 +45,7 @@ static void plan_models(const igabem_options *frozen, struct verification *rows,
     char label[80];
     for (igabem_formulation f = IGABEM_FORMULATION_AUTO + 1;
          (formulation = igabem_formulation_info(f)); f++) {
-        if (f == frozen->formulation || formulation->potential)
+        if (f == frozen->formulation)
             continue;
         igabem_options other = *frozen;
         other.formulation = f;
@@ -82,8 +82,12 @@ size_t verify_plan(const struct problem *problem, struct verification rows[VERIF
         add(rows, options, &n, GROUP_FILTER, "each hull's own filter", &own);
     }
     for (size_t i = 0; i < problem->speeds; i++) {
-        snprintf(label, sizeof label, "Fr %g", problem->speed[i].froude);
-        add(rows, options, &n, GROUP_SPEED, label, &problem->speed[i]);
+        igabem_options outside = problem->speed[i];
+        snprintf(label, sizeof label, "Fr %g", outside.froude);
+        add(rows, options, &n, GROUP_SPEED, label, &outside);
+        outside.formulation = IGABEM_FORMULATION_EXTERIOR;
+        if (frozen->formulation != IGABEM_FORMULATION_EXTERIOR)
+            add(rows, options, &n, GROUP_SPEED, label, &outside);
     }
     return n;
 }

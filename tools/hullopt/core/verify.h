@@ -6,7 +6,7 @@
 
 #include "core/record.h"
 
-enum { VERIFY_MOST = 24 };
+enum { VERIFY_MOST = 32 };
 
 /* The rows of a verification with their settings; results NAN. Returns how many. */
 size_t verify_plan(const struct problem *problem, struct verification rows[VERIFY_MOST],

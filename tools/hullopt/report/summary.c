@@ -118,6 +118,7 @@ static json_t *robust(const struct verdict *v)
     put_flag(o, "formulations", v->formulations);
     json_result_set(o, "resolution", v->has_resolution ? json_boolean(v->resolution) : json_null());
     json_result_set(o, "filter", v->has_filter ? json_boolean(v->filter) : json_null());
+    json_result_set(o, "sterns", v->has_sterns ? json_boolean(v->sterns) : json_null());
     json_result_set(o, "speeds", v->has_speeds ? json_boolean(v->speeds) : json_null());
     put_flag(o, "only_objective", v->only_objective);
     put(o, "reduction_percent_pressure", 100 * v->pressure);

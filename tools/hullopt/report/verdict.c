@@ -45,8 +45,11 @@ static void count(const struct verification *row, struct verdict *v)
         v->pressure = 1 - row->cw_pressure_best / row->cw_pressure_parent;
         break;
     case GROUP_FORMULATION:
-    case GROUP_STERN:
         count_model(gain, v);
+        break;
+    case GROUP_STERN:
+        v->sterns = (!v->has_sterns || v->sterns) && gain >= CONFIRM_SHARE * v->claimed;
+        v->has_sterns = true;
         break;
     case GROUP_RESOLUTION:
         v->has_resolution = true;
@@ -96,6 +99,8 @@ static void state(struct verdict *v)
         say(v,
             " The pressure integral of the same solutions does not see it: it changes by %+.1f %%.",
             -100 * v->pressure);
+    if (v->has_sterns && !v->sterns)
+        say(v, " With the stern treated over another length more than half of the gain is lost.");
     if (v->has_resolution)
         say(v, v->resolution ? " A finer solve keeps the gain."
                              : " A finer solve does not keep the gain.");
@@ -118,6 +123,7 @@ void verdict_reach(const struct verification *rows, size_t n, struct verdict *v)
     v->only_objective = gain && v->models > 0 && v->confirm == 0;
     v->resolution = v->resolution && gain;
     v->filter = v->filter && gain;
+    v->sterns = v->sterns && gain;
     v->speeds = v->speeds && gain;
     state(v);
 }
