@@ -31,7 +31,8 @@ static char *fill_command(const struct config *c, const struct template_values *
     FILE *out = open_memstream(&text, &size);
     if (out)
         template_write(command, strlen(command), values, out);
-    if (out && fclose(out) == 0)
+    /* Closing a stream that cannot shrink its text loses it without a word. */
+    if (out && fclose(out) == 0 && text)
         return text;
     free(text);
     cli_fail("out of memory");
@@ -178,8 +179,9 @@ void evaluation_check_time(const struct config *c, struct evaluation *e)
     }
 }
 
-/* A file of the evaluation's folder as a text; NULL with errno. */
-static char *read_file(const struct evaluation *e, const char *name)
+/* A file of the evaluation's folder as a text; NULL with errno. Want of memory is no failure of the
+ * point: that is noted. */
+static char *read_file(const struct evaluation *e, const char *name, struct outcome *o)
 {
     size_t length;
     char *path = malloc(strlen(e->folder) + strlen(name) + 2), *text = NULL;
@@ -187,6 +189,7 @@ static char *read_file(const struct evaluation *e, const char *name)
         sprintf(path, "%s/%s", e->folder, name);
         text = template_read(path, &length);
     }
+    o->no_memory = o->no_memory || (!text && errno == ENOMEM);
     for (size_t i = 0; text && i < length; i++)
         if (!text[i])
             text[i] = ' ';
@@ -229,7 +232,7 @@ static void read_answer(const struct config *c, const struct umbridge *model, co
 static void read_numbers(const struct config *c, const struct evaluation *e, const char *out,
                          struct outcome *o)
 {
-    char *file = c->file ? read_file(e, c->file) : NULL;
+    char *file = c->file ? read_file(e, c->file, o) : NULL;
     const char *text = c->file ? file : out;
     bool ok = text != NULL;
     if (!ok)
@@ -267,10 +270,11 @@ static bool is_transient(const struct config *c, const struct outcome *o, const 
     return false;
 }
 
-void evaluation_read(const struct config *c, const struct umbridge *model,
+bool evaluation_read(const struct config *c, const struct umbridge *model,
                      const struct evaluation *e, int status, struct outcome *o)
 {
-    char *out = read_file(e, "stdout"), *err = read_file(e, "stderr");
+    o->no_memory = false;
+    char *out = read_file(e, "stdout", o), *err = read_file(e, "stderr", o);
     o->reason[0] = '\0';
     o->transient = false;
     o->code = 0;
@@ -297,4 +301,5 @@ void evaluation_read(const struct config *c, const struct umbridge *model,
     }
     free(out);
     free(err);
+    return !o->no_memory || cli_refuse("%s: no memory for what the evaluation left", e->folder);
 }

@@ -33,6 +33,7 @@ struct outcome {
     enum outcome_kind kind;
     int code;
     bool transient; /* a failure that says nothing of the point */
+    bool no_memory; /* to read it */
     double f;
     double *constraints, *gradient; /* [m], [d], owned by the caller */
     char reason[400];               /* of a failure, with the program's own last words */
@@ -45,8 +46,8 @@ bool evaluation_start(const struct config *config, const struct umbridge *model,
                       struct evaluation *e);
 /* Kills the process group if the time is up. */
 void evaluation_check_time(const struct config *config, struct evaluation *e);
-/* What a finished process left. */
-void evaluation_read(const struct config *config, const struct umbridge *model,
+/* What a finished process left; false, with a sentence, without memory to read it. */
+bool evaluation_read(const struct config *config, const struct umbridge *model,
                      const struct evaluation *e, int status, struct outcome *outcome);
 
 #endif

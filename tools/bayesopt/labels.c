@@ -13,7 +13,7 @@ static bool join_labels(const struct labels *labels, char **joined)
     FILE *out = open_memstream(joined, &size);
     for (size_t i = 0; out && i < labels->n; i++)
         fprintf(out, "%s%s", i ? "\n" : "", labels->texts[i]);
-    return (out && fclose(out) == 0) || cli_refuse("out of memory");
+    return (out && fclose(out) == 0 && *joined) || cli_refuse("out of memory");
 }
 
 static bool split_labels(char *joined, struct labels *labels)

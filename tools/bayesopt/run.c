@@ -151,7 +151,8 @@ static bool runner_finish(struct runner *r, struct evaluation *slot, int status)
     struct outcome o = {.constraints = r->constraints, .gradient = r->gradient};
     const struct config *c = &r->config;
     slot->process = 0;
-    evaluation_read(c, model_of(r), slot, status, &o);
+    if (!evaluation_read(c, model_of(r), slot, status, &o))
+        return false;
     bool again = o.kind != OUTCOME_DONE && (o.transient || !config_knows_transient(c));
     if (again && slot->attempt <= c->retries && !interrupted) {
         slot->attempt++;

@@ -24,9 +24,11 @@ static char *join_templates(const struct config *c)
             fputs(text, out);
         free(text);
     }
-    if (out && fclose(out) == 0 && ok)
+    if (out && fclose(out) == 0 && joined && ok)
         return joined;
     free(joined);
+    if (ok)
+        cli_fail("out of memory");
     return NULL;
 }
 

@@ -91,8 +91,10 @@ char *template_read(const char *path, size_t *length)
     while (out && (n = fread(buffer, 1, sizeof buffer, file)) > 0)
         fwrite(buffer, 1, n, out);
     bool ok = out && !ferror(file);
-    if (out && fclose(out) != 0)
+    if (out && (ferror(out) | (fclose(out) != 0) || !text)) {
+        errno = ENOMEM;
         ok = false;
+    }
     if (file)
         fclose(file);
     if (ok)

@@ -152,6 +152,8 @@ int cli_printed(void)
 
 int cli_print(const char *text)
 {
+    if (!text)
+        return cli_fail("out of memory");
     fputs(text, stdout);
     return cli_printed();
 }

@@ -45,7 +45,8 @@ __attribute__((format(printf, 1, 2))) bool cli_refuse(const char *format, ...);
  * options and inputs are read. */
 void *cli_needed(void *memory);
 
-/* Prints help or version on stdout and returns as cli_printed(). */
+/* Prints help or version on stdout and returns as cli_printed(); NULL: there was no memory for it.
+ */
 int cli_print(const char *text);
 int cli_version(void);
 
