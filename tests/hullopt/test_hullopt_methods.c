@@ -27,6 +27,7 @@ static void write_config(const char *method, int designs)
         "hull: " EXAMPLES_DIR "/hulls/wigley.json\nshape: " EXAMPLES_DIR "/wigley_shape.yaml\n"
         "grid: {sections: 15, girth: 7}\nlatent: {samples: 100, variance: 0.9}\n"
         "flow: {froude: 0.316}\nsolver: {formulation: michell, elements_u: 8, elements_v: 4, "
+        "surface_cells: 8, "
         "tolerance: 1e-3}\nreconstruction: {tolerance: 1e-3}\nconstraints: {displacement: 0.02}\n"
         "search: {method: %s, initial: %d, iterations: %d}\n",
         method, designs / 2, designs - designs / 2);
