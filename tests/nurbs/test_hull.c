@@ -296,7 +296,26 @@ static void refuses_with_the_file_and_the_reason(void)
     nurbs_patches_free(patches);
 }
 
+/* The surface through the offsets swings about the centre plane at the profile of the counter: no
+ * open edge is left there. */
+static void closes_a_counter_at_the_centre_plane(void)
+{
+    nurbs_hull *hull = NULL;
+    CU_ASSERT_EQUAL_FATAL(nurbs_hull_read(EXAMPLES_DIR "/hulls/series60.offsets.csv", NULL, &hull),
+                          NURBS_OK);
+    const nurbs_surface *wetted = nurbs_patches_get(nurbs_hull_wetted(hull), 0);
+    const double *points = nurbs_surface_points(wetted);
+    size_t n[2] = {nurbs_surface_size(wetted, 0), nurbs_surface_size(wetted, 1)};
+    CU_ASSERT_EQUAL(nurbs_patches_count(nurbs_hull_wetted(hull)), 1);
+    for (size_t j = 0; j < n[1]; j++) {
+        CU_ASSERT_EQUAL(points[3 * j + 1], 0);
+        CU_ASSERT_EQUAL(points[3 * ((n[0] - 1) * n[1] + j) + 1], 0);
+    }
+    nurbs_hull_free(hull);
+}
+
 static const struct check_case cases[] = {
+    {"closes a counter at the centre plane", closes_a_counter_at_the_centre_plane},
     {"cuts at the level and says so", cuts_at_the_level_and_says_so},
     {"draft sets the level", draft_sets_the_level},
     {"sinkage and trim place the hull", sinkage_and_trim_place_the_hull},

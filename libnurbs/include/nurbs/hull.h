@@ -12,8 +12,9 @@
  * half is mirrored; of surfaces that run across the centre plane the port half is taken where a
  * parameter line lies in it; a body open at large x only is turned round. Edges within 1e-6 of the
  * extent of the water and within 1e-5 of it of the centre plane are put there; a half that
- * overshoots the centre plane is lifted, by at most 1e-3 of the extent. Parameter lines may run in
- * any direction, normals may point either way.
+ * overshoots the centre plane is lifted, by at most 1e-3 of the extent, and then its edges as near
+ * that plane as the lift moved points are put there too. Parameter lines may run in any direction,
+ * normals may point either way.
  */
 #ifndef NURBS_HULL_H
 #define NURBS_HULL_H

@@ -51,20 +51,20 @@ static nurbs_status cut_patch(const nurbs_surface *patch, double level, double e
 
 /* A half hull off the wrong side of the centre plane; *lifted NULL where nothing is to be done. */
 static nurbs_status lift(nurbs_hull *hull, const nurbs_surface *patch, const hull_box *box,
-                         nurbs_surface **lifted)
+                         nurbs_surface **lifted, double *moved)
 {
-    double moved = 0;
     *lifted = NULL;
+    *moved = 0;
     if (box->lower[1] >= 0 || box->upper[1] <= -box->lower[1] || nurbs_surface_weights(patch))
         return NURBS_OK;
-    nurbs_status status = nurbs_surface_raise_side(patch, lifted, &moved);
-    if (!status && moved > most_lift * hull->extent)
+    nurbs_status status = nurbs_surface_raise_side(patch, lifted, moved);
+    if (!status && *moved > most_lift * hull->extent)
         status =
             nurbs_fail(NURBS_ERROR_GEOMETRY,
                        "a patch reaches across the centre plane, to y = %.3g m: it takes moves "
                        "of %.3g m to bring it to y >= 0, expected at most %.3g m",
-                       box->lower[1], moved, most_lift * hull->extent);
-    hull->lifted = fmax(hull->lifted, moved);
+                       box->lower[1], *moved, most_lift * hull->extent);
+    hull->lifted = fmax(hull->lifted, *moved);
     return status;
 }
 
@@ -84,10 +84,12 @@ static void settle_edge(double *points, const size_t n[2], int e, size_t coordin
 }
 
 /* Edges that lie within the clearance of the water and as close to the centre plane as the cut has
- * to be are put there. */
+ * to be, or as the lift moved points off it, are put there: a counter's profile that an
+ * interpolation makes swing about the plane is no rim of a transom. */
 static nurbs_status settle_edges(const nurbs_hull *hull, const nurbs_surface *patch, double level,
-                                 nurbs_surface **settled)
+                                 double moved, nurbs_surface **settled)
 {
+    double centre = fmax(moved, fmin(hull->options.cut, centre_reach * hull->extent));
     const size_t n[2] = {nurbs_surface_size(patch, 0), nurbs_surface_size(patch, 1)};
     const int degree[2] = {nurbs_surface_degree(patch, 0), nurbs_surface_degree(patch, 1)};
     double *points = malloc(3 * n[0] * n[1] * sizeof *points);
@@ -96,7 +98,7 @@ static nurbs_status settle_edges(const nurbs_hull *hull, const nurbs_surface *pa
     memcpy(points, nurbs_surface_points(patch), 3 * n[0] * n[1] * sizeof *points);
     for (int e = 0; e < 4; e++) {
         settle_edge(points, n, e, 2, level, HULL_CLEARANCE * hull->extent);
-        settle_edge(points, n, e, 1, 0, fmin(hull->options.cut, centre_reach * hull->extent));
+        settle_edge(points, n, e, 1, 0, centre);
     }
     nurbs_status status = nurbs_surface_create(degree, n, nurbs_surface_knots(patch, 0),
                                                nurbs_surface_knots(patch, 1), points,
@@ -109,7 +111,7 @@ static nurbs_status settle_edges(const nurbs_hull *hull, const nurbs_surface *pa
 static nurbs_status wet_patch(nurbs_hull *hull, const nurbs_surface *patch, double level, bool *cut,
                               nurbs_patches *wetted)
 {
-    double clearance = HULL_CLEARANCE * hull->extent;
+    double clearance = HULL_CLEARANCE * hull->extent, lifted_by = 0;
     hull_box box = hull_box_empty();
     nurbs_surface *lifted = NULL;
     nurbs_patches *below = NULL;
@@ -120,7 +122,7 @@ static nurbs_status wet_patch(nurbs_hull *hull, const nurbs_surface *patch, doub
     *cut = box.upper[2] > level + clearance;
     status = nurbs_patches_create(&below);
     if (!status)
-        status = lift(hull, patch, &box, &lifted);
+        status = lift(hull, patch, &box, &lifted, &lifted_by);
     const nurbs_surface *sound = lifted ? lifted : patch;
     if (!status)
         status =
@@ -129,7 +131,7 @@ static nurbs_status wet_patch(nurbs_hull *hull, const nurbs_surface *patch, doub
     const double shift[3] = {0.0, 0.0, -level};
     for (size_t k = 0; !status && k < nurbs_patches_count(below); k++) {
         nurbs_surface *settled = NULL, *moved = NULL;
-        status = settle_edges(hull, nurbs_patches_get(below, k), level, &settled);
+        status = settle_edges(hull, nurbs_patches_get(below, k), level, lifted_by, &settled);
         if (!status && level != 0.0)
             status = nurbs_surface_transform(settled, NULL, shift, &moved);
         if (!status)
