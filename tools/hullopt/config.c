@@ -86,10 +86,14 @@ static const struct setting ROWS[] = {
     PARTICULAR(9, "waterlines", "their turning, likewise: what inflections add to"),
     PARTICULAR(10, "sections", "their turning, likewise"),
     PARTICULAR(11, "radius", "least radius of the waterlines, likewise"),
-    PARTICULAR(12, "stations",
+    PARTICULAR(12, "waterlines_energy", "integral of their squared curvature, likewise"),
+    PARTICULAR(13, "sections_energy", "likewise"),
+    PARTICULAR(14, "waterlines_inflections", "their number, likewise; not by a descent"),
+    PARTICULAR(15, "sections_inflections", "likewise"),
+    PARTICULAR(16, "stations",
                "half breadths of the waterline at constraints.at_stations, likewise"),
-    PARTICULAR(13, "hard", "half breadths at constraints.at_points, likewise"),
-    PARTICULAR(14, "boxes", "half breadths at constraints.at_boxes over theirs"),
+    PARTICULAR(17, "hard", "half breadths at constraints.at_points, likewise"),
+    PARTICULAR(18, "boxes", "half breadths at constraints.at_boxes over theirs"),
     ROW("constraints.kg", NUMBER, kg, "centre of gravity above the deepest point, m",
         SETTING_FROM(0, 1e3), .words = NONE, .otherwise = "none"),
     ROW("constraints.at_stations", NUMBER, station, "x, m, for constraints.stations",
@@ -170,9 +174,9 @@ static void check_places(struct settings_source *source, const struct config *c)
         size_t particular;
         const char *key, *needs;
         size_t n, each;
-    } list[] = {{12, "constraints.stations", "constraints.at_stations", c->stations, 1},
-                {13, "constraints.hard", "constraints.at_points", c->hard_points, 2},
-                {14, "constraints.boxes", "constraints.at_boxes", c->boxes, 5},
+    } list[] = {{16, "constraints.stations", "constraints.at_stations", c->stations, 1},
+                {17, "constraints.hard", "constraints.at_points", c->hard_points, 2},
+                {18, "constraints.boxes", "constraints.at_boxes", c->boxes, 5},
                 {4, "constraints.gm", "constraints.kg", (size_t)!isnan(c->kg), 1}};
     for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
         if (!isnan(c->particular[list[i].particular][0]) && !list[i].n)
@@ -181,6 +185,11 @@ static void check_places(struct settings_source *source, const struct config *c)
             settings_complain(source, list[i].needs, "has %zu numbers, expected %zu for each",
                               list[i].n, list[i].each);
     }
+    if (method_row(c->method)->kind == METHOD_DESCENT &&
+        !(isnan(c->particular[14][0]) && isnan(c->particular[15][0])))
+        settings_complain(source, "constraints.waterlines_inflections",
+                          "is a number without derivatives, which gauss-newton cannot keep: bound "
+                          "the turning and the energy");
     for (size_t i = 0; i < PARTICULARS; i++)
         if (c->particular[i][0] > c->particular[i][1])
             settings_complain(source, "constraints", "has a least of %g above a most of %g",

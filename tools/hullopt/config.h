@@ -13,7 +13,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { CONFIG_FROUDE_MOST = 8, CONFIG_MODELS_MOST = 4, CONFIG_PLACES_MOST = 40, PARTICULARS = 15 };
+enum { CONFIG_FROUDE_MOST = 8, CONFIG_MODELS_MOST = 4, CONFIG_PLACES_MOST = 40, PARTICULARS = 19 };
+
+enum { CONFIG_DESIGN_FORECAST = BAYESOPT_DESIGN_STLBO + 1 };
 
 struct config {
     char *path;         /* of the YAML file; the paths below are resolved against its folder */

@@ -17,6 +17,10 @@ static const struct particular_row ROWS[PARTICULARS] = {
     {"waterlines", "turning of the waterlines", "rad", 3, false},
     {"sections", "turning of the sections", "rad", 3, false},
     {"radius", "least radius of the waterlines", "m", 4, false},
+    {"waterlines_energy", "bending energy of the waterlines", "1/m", 3, false},
+    {"sections_energy", "bending energy of the sections", "1/m", 3, false},
+    {"waterlines_inflections", "inflections of the waterlines", "", 0, false},
+    {"sections_inflections", "inflections of the sections", "", 0, false},
     {"stations", "half breadths at the stations, over the original's", "", 4, false},
     {"hard", "half breadths at the hard points, over the original's", "", 4, false},
     {"boxes", "half breadths at the boxes, over theirs", "", 4, false},
@@ -88,16 +92,20 @@ static bool measure_fairness(const struct view *v, double value[PARTICULARS][2])
 {
     const struct config *c = v->problem->config;
     galv_fairness waterlines = {NAN, NAN, NAN, NAN, {0}}, sections = waterlines;
-    bool lines = !isnan(c->particular[PARTICULAR_WATERLINES][0]) ||
-                 !isnan(c->particular[PARTICULAR_RADIUS][0]),
-         ribs = !isnan(c->particular[PARTICULAR_SECTIONS][0]);
-    if (galv_grid_fairness(v->sections, v->girth, v->xyz, v->all || lines ? &waterlines : NULL,
-                           v->all || ribs ? &sections : NULL) != GALV_OK)
+    bool wanted = v->all;
+    for (int p = PARTICULAR_WATERLINES; p < PARTICULAR_STATIONS && !wanted; p++)
+        wanted = !isnan(c->particular[p][0]);
+    if (wanted &&
+        galv_grid_fairness(v->sections, v->girth, v->xyz, &waterlines, &sections) != GALV_OK)
         return core_fail("grid: %s", galv_last_error());
     for (int end = 0; end < 2; end++) {
         value[PARTICULAR_WATERLINES][end] = waterlines.turning;
         value[PARTICULAR_RADIUS][end] = waterlines.radius;
+        value[PARTICULAR_WATERLINES_ENERGY][end] = waterlines.energy;
+        value[PARTICULAR_WATERLINES_INFLECTIONS][end] = waterlines.inflections;
         value[PARTICULAR_SECTIONS][end] = sections.turning;
+        value[PARTICULAR_SECTIONS_ENERGY][end] = sections.energy;
+        value[PARTICULAR_SECTIONS_INFLECTIONS][end] = sections.inflections;
     }
     return true;
 }
