@@ -175,6 +175,28 @@ static void keeps_the_pressure(void)
     CHECK_CLOSE(x[1], 0.1, 0.02);
 }
 
+/* A limit that bends away from its derivatives, and the least value within it, 0.2951 by a random
+ * search: a few steps correct the first with the derivatives at hand. */
+static void mends_what_a_step_breaks(void)
+{
+    static const struct gn_setting fenced[SETTINGS] = {{0, 1}, {1, 0}};
+    struct body body = {.target = {{0.9, 0, 0}, {0, 0.6, 0}}, .rest = 0.1, .curvature = 0.2};
+    const struct gn_problem p = problem(&body, fenced);
+    double x[N], residual[SETTINGS * R], value[SETTINGS], parent[SETTINGS];
+    const double zero[N] = {0};
+    igabem_pressure_sample point[POINTS];
+    struct gn_sample s = {.residual = residual, .value = value, .points = POINTS, .point = point};
+    fill(&body, zero, 1, &s);
+    memcpy(parent, value, sizeof parent);
+    CU_ASSERT_FATAL(gn_run(&p, x));
+    fill(&body, x, 1, &s);
+    CU_ASSERT(value[1] / parent[1] <= 1);
+    CU_ASSERT(value[1] / parent[1] > 0.98);
+    CHECK_CLOSE(value[0] / parent[0], 0.2951, 0.005);
+    CU_ASSERT(body.fine <= 9);
+    CU_ASSERT(body.coarse <= 4 * (N + 1));
+}
+
 /* Where designs cannot be built the steps get shorter; a budget ends the search with the best. */
 static void stops_where_it_must(void)
 {
@@ -197,6 +219,7 @@ static const struct check_case cases[] = {
     {"keeps the share of the gain", keeps_the_share_of_the_gain},
     {"stays within known limits", stays_within_known_limits},
     {"keeps the pressure", keeps_the_pressure},
+    {"mends what a step breaks", mends_what_a_step_breaks},
     {"stops where it must", stops_where_it_must},
 };
 

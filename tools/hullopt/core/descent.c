@@ -13,7 +13,11 @@
  * of the quadrature. */
 static const double COARSE_SHARE = 0.75, COARSE_TOLERANCE = 10;
 static const double WHOLE_BOX = 2; /* a radius that the box ends before */
-enum { ALONG = 60, AROUND = 16 };  /* samples of the pressure */
+/* Of initial designs: how far the model is asked to look, and how far inside of the limits. */
+static const double DESIGN_RADIUS = 0.5, DESIGN_MARGIN = 0.01;
+enum { DRAWS = 2 };                          /* points tried for each */
+static const double FORECAST_OUTSIDE = 1e-4; /* no step keeps the limits */
+enum { ALONG = 60, AROUND = 16 };            /* samples of the pressure */
 
 struct descent {
     struct problem *base;
@@ -23,7 +27,6 @@ struct descent {
     igabem_options coarse[SETTINGS_MOST];
     size_t valued, differentiated;
     bool ok; /* the record took everything */
-    char line[160];
 };
 
 static bool look(void *user_data, igabem_solution *const *solutions)
@@ -98,7 +101,6 @@ static enum gn_answer fine(void *user_data, const double *u, struct gn_sample *s
         return GN_STOP;
     }
     d->valued += !parent;
-    search_show(search, d->line);
     if (e.failed)
         return GN_FAILED;
     keep_values(&e, sample);
@@ -138,10 +140,10 @@ static bool limit(void *user_data, const double *u, double *value)
     return limits_evaluate(d->base, d->problem.n, u, value) == 0;
 }
 
-static void keep_line(void *user_data, const char *sentence)
+static void show_line(void *user_data, const char *sentence)
 {
-    struct descent *d = user_data;
-    snprintf(d->line, sizeof d->line, "%s", sentence);
+    const struct descent *d = user_data;
+    search_show(d->search, sentence);
 }
 
 static void coarsen(igabem_options *options)
@@ -193,7 +195,7 @@ static bool start(struct problem *base, struct gn_setting *setting, struct desce
                                      .limit = limit,
                                      .coarse = coarse,
                                      .fine = fine,
-                                     .tell = keep_line,
+                                     .tell = show_line,
                                      .user_data = d};
     for (size_t m = 0; m < d->problem.settings; m++) {
         coarsen(&d->coarse[m]);
@@ -258,9 +260,9 @@ static double least(struct descent *d, const struct gn_model *model, const struc
         if (m > config->models && isnan(config->speeds))
             s->offset = HUGE_VAL; /* never reached */
     }
-    double ratio = gn_model_minimise(model, WHOLE_BOX, step);
+    double broken = 0, ratio = gn_model_minimise(model, WHOLE_BOX, step, &broken);
     d->base->config = keep;
-    return ratio;
+    return broken < FORECAST_OUTSIDE ? ratio : NAN;
 }
 
 static void fill(struct descent *d, const struct gn_model *model, struct forecast *f, double *step)

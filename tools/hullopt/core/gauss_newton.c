@@ -7,16 +7,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { R = IGABEM_WAVE_RESIDUALS, TRIES = 6 };
+enum { R = IGABEM_WAVE_RESIDUALS };
 /* Radii in half widths of the box: models of the Kochin function hold to about 0.4. */
 static const double FIRST_RADIUS = 0.4, LEAST_RADIUS = 0.02, MOST_RADIUS = 1, GROWTH = 1.5,
-                    SETTLE_RADIUS = 0.1;
+                    RESTART_RADIUS = 0.1;
 static const double DIFFERENCE = 0.03; /* step of the differences, half widths */
-static const double LEAST_GAIN = 2e-3; /* of the ratio in a step */
-static const double SLACK = 2e-3;      /* by which every limit is tightened */
-/* An excess weighs as much in the progress of the search: an l1 penalty, exact as long as it is
- * above the multipliers of the step's problem, which are of order one. */
-static const double PENALTY = 3;
+static const double LEAST_GAIN = 1e-3, LEAST_OF_A_CYCLE = 5e-3; /* of the ratio */
+enum { CORRECTIONS = 2 };
+static const double MARGIN = 2e-3; /* by which every limit is tightened */
+/* Shares of the promised progress: a shorter radius below, a longer one above. */
+static const double POOR = 0.25, GOOD = 0.5;
+/* Of an excess: exact as long as it is above the multipliers of the step's problem, which are of
+ * order one, and raised where a search would end outside. */
+static const double PENALTY = 3, MORE = 10, MOST_PENALTY = 1000;
 
 struct run {
     const struct gn_problem *problem;
@@ -66,7 +69,7 @@ static double merit(const struct run *run, const struct gn_sample *s)
     const struct gn_problem *p = run->problem;
     double most = 0;
     for (size_t m = 0; m < p->settings; m++)
-        if (p->setting[m].share == 1 && p->setting[m].offset == 0)
+        if (gn_is_objective(&p->setting[m]))
             most = fmax(most, ratio(run, s, m));
     return most;
 }
@@ -82,9 +85,11 @@ static double excess(const struct run *run, const struct gn_sample *s, size_t m)
 
 static double worst_excess(const struct run *run, const struct gn_sample *s)
 {
+    const struct gn_problem *p = run->problem;
     double most = -HUGE_VAL;
-    for (size_t m = 0; m <= run->problem->settings; m++)
-        most = fmax(most, excess(run, s, m));
+    for (size_t m = 0; m <= p->settings; m++)
+        if (m == p->settings || !gn_is_objective(&p->setting[m]))
+            most = fmax(most, excess(run, s, m));
     return most;
 }
 
@@ -121,7 +126,22 @@ static enum gn_answer differentiate(struct run *run)
 /* The objective with a penalty for what is broken: progress is what lowers it. */
 static double progress(const struct run *run, const struct gn_sample *s)
 {
-    return merit(run, s) + PENALTY * fmax(worst_excess(run, s), 0);
+    return merit(run, s) + run->model.penalty * fmax(worst_excess(run, s), 0);
+}
+
+/* The original and its fine values, at which every ratio is one. */
+static bool start(struct run *run)
+{
+    const struct gn_problem *p = run->problem;
+    if (p->fine(p->user_data, run->x, &run->at) != GN_VALUED)
+        return false;
+    memcpy(run->model.parent, run->at.value, p->settings * sizeof *run->model.parent);
+    run->model.parent_pressure = run->at.pressure;
+    run->model.margin = MARGIN;
+    run->model.penalty = PENALTY;
+    run->model.x = run->x;
+    run->model.base = run->at;
+    return true;
 }
 
 static void note_best(struct run *run, const double *x, const struct gn_sample *s)
@@ -132,104 +152,96 @@ static void note_best(struct run *run, const double *x, const struct gn_sample *
     memcpy(run->best, x, run->problem->n * sizeof *x);
 }
 
-/* What the rejected candidate breaks is tightened by as much. */
-static void tighten(struct run *run)
-{
-    for (size_t m = 0; m <= run->problem->settings; m++)
-        run->model.shift[m] += fmax(excess(run, &run->candidate, m), 0);
-}
-
+/* Values the step d from x. */
 static enum gn_answer value_candidate(struct run *run, double radius, double promised)
 {
     const struct gn_problem *p = run->problem;
     char line[160];
-    for (size_t k = 0; k < p->n; k++)
+    for (size_t k = 0; k < p->n; k++) {
         run->trial[k] = fmin(fmax(run->x[k] + run->step[k], p->lower[k]), p->upper[k]);
+        run->step[k] = run->trial[k] - run->x[k];
+    }
     enum gn_answer answer = p->fine(p->user_data, run->trial, &run->candidate);
     if (answer != GN_VALUED)
         return answer;
     double broken = worst_excess(run, &run->candidate);
-    snprintf(line, sizeof line, "radius %.2f: promised %.4f, is %.4f%s", radius, promised,
-             merit(run, &run->candidate), broken > 0 ? ", breaks a limit" : "");
+    int length = snprintf(line, sizeof line, "radius %.2f: promised %.4f, is %.4f", radius,
+                          promised, merit(run, &run->candidate));
+    if (broken > 0)
+        snprintf(line + length, sizeof line - (size_t)length, ", %.2g outside", broken);
     say(p, line);
     note_best(run, run->trial, &run->candidate);
     return answer;
 }
 
-/* Steps from the design at hand until one makes progress by its fine values. */
-static enum gn_answer advance(struct run *run, double *radius, bool *better)
+/* One step of the model at hand, if it promises at least so much. *share: of the promised progress
+ * that was made, -1 where the design could not be had; NAN: too little is promised. */
+static enum gn_answer try_step(struct run *run, double radius, double least, double *share)
 {
-    double before = progress(run, &run->at);
-    *better = false;
-    for (int attempt = 0; attempt < TRIES && !*better && *radius >= LEAST_RADIUS; attempt++) {
-        double promised = gn_model_minimise(&run->model, *radius, run->step);
-        if (!(promised < before - LEAST_GAIN / 2))
-            break;
-        enum gn_answer answer = value_candidate(run, *radius, promised);
-        if (answer == GN_STOP)
-            return answer;
-        *better = answer == GN_VALUED && progress(run, &run->candidate) < before;
-        if (*better)
-            break;
-        if (answer == GN_VALUED)
-            tighten(run);
-        *radius /= 2;
-    }
-    return GN_VALUED;
-}
-
-/* Where a search ends outside of the limits by little, the derivatives at hand lead it back: each
- * try aims inside by what the last was outside. */
-static void settle(struct run *run)
-{
-    for (int attempt = 0; attempt < TRIES && worst_excess(run, &run->at) > 0; attempt++) {
-        run->model.x = run->x;
-        run->model.base = run->at;
-        double promised = gn_model_minimise(&run->model, SETTLE_RADIUS, run->step);
-        if (isnan(promised))
-            break;
-        if (value_candidate(run, SETTLE_RADIUS, promised) != GN_VALUED)
-            break;
-        tighten(run);
+    double before = progress(run, &run->at), broken = 0;
+    run->model.base = run->at;
+    double tau = gn_model_minimise(&run->model, radius, run->step, &broken);
+    double promised = before - tau - run->model.penalty * fmax(broken - MARGIN, 0);
+    *share = NAN;
+    if (!(promised > least))
+        return GN_VALUED;
+    enum gn_answer answer = value_candidate(run, radius, tau);
+    *share = -1;
+    if (answer != GN_VALUED)
+        return answer;
+    *share = (before - progress(run, &run->candidate)) / promised;
+    gn_model_update(&run->model, run->step, &run->candidate);
+    if (*share > 0) {
         swap(&run->at, &run->candidate);
         memcpy(run->x, run->trial, run->problem->n * sizeof *run->x);
     }
+    return answer;
 }
 
-/* The bounds of the step's problem start inside of the true ones. */
-static void place_model(struct run *run)
+/* A step of new derivatives, shorter until it makes progress, and steps that correct it within the
+ * same radius: what the first broke of a limit the next ones mend by its fine values. */
+static enum gn_answer cycle(struct run *run, double *radius)
 {
-    const struct gn_problem *p = run->problem;
-    run->model.x = run->x;
-    run->model.base = run->at;
-    for (size_t m = 0; m <= p->settings; m++)
-        run->model.shift[m] = m < p->settings && p->setting[m].share == 1 ? 0 : SLACK;
+    double first = -1, share;
+    enum gn_answer answer = GN_VALUED;
+    while (first <= 0 && *radius >= LEAST_RADIUS) {
+        answer = try_step(run, *radius, LEAST_GAIN, &first);
+        if (answer == GN_STOP || isnan(first))
+            return answer;
+        if (first < POOR)
+            *radius /= 2;
+    }
+    for (int k = 0; k < CORRECTIONS && first > 0 && worst_excess(run, &run->at) > 0; k++) {
+        answer = try_step(run, fmax(*radius, LEAST_RADIUS), LEAST_GAIN, &share);
+        if (answer == GN_STOP || !(share > POOR))
+            break;
+    }
+    if (first > GOOD)
+        *radius = fmin(GROWTH * *radius, MOST_RADIUS);
+    return answer == GN_STOP ? answer : GN_VALUED;
 }
 
 static bool search(struct run *run)
 {
-    const struct gn_problem *p = run->problem;
-    double *parent = run->model.shift + p->settings + 1, radius = FIRST_RADIUS;
-    if (p->fine(p->user_data, run->x, &run->at) != GN_VALUED)
+    double radius = FIRST_RADIUS;
+    if (!start(run))
         return false;
-    memcpy(parent, run->at.value, p->settings * sizeof *parent);
-    run->model.parent = parent;
-    run->model.parent_pressure = run->at.pressure;
     run->least = 1;
-    for (bool better = true; better;) {
+    for (bool goes_on = true; goes_on;) {
         double before = progress(run, &run->at);
+        memcpy(run->model.anchor, run->x, run->problem->n * sizeof *run->x);
         enum gn_answer answer = differentiate(run);
-        place_model(run);
         if (answer == GN_VALUED)
-            answer = advance(run, &radius, &better);
-        if (answer != GN_VALUED || !better)
+            answer = cycle(run, &radius);
+        if (answer != GN_VALUED)
             break;
-        swap(&run->at, &run->candidate);
-        memcpy(run->x, run->trial, p->n * sizeof *run->x);
-        radius = fmin(GROWTH * radius, MOST_RADIUS);
-        better = progress(run, &run->at) < before - LEAST_GAIN;
+        goes_on = progress(run, &run->at) < before - LEAST_OF_A_CYCLE;
+        radius = fmax(radius, RESTART_RADIUS);
+        if (!goes_on && worst_excess(run, &run->at) > 0 && run->model.penalty < MOST_PENALTY) {
+            run->model.penalty *= MORE;
+            goes_on = true;
+        }
     }
-    settle(run);
     return true;
 }
 
@@ -271,7 +283,7 @@ bool gn_at_parent(const struct gn_problem *p, struct gn_model *model)
     if (ok) {
         run.x = vectors;
         run.trial = vectors + p->n;
-        ok = p->fine(p->user_data, run.x, &run.at) == GN_VALUED && differentiate(&run) == GN_VALUED;
+        ok = start(&run) && differentiate(&run) == GN_VALUED;
     }
     sample_free(&run.coarse);
     sample_free(&run.moved);
@@ -281,12 +293,6 @@ bool gn_at_parent(const struct gn_problem *p, struct gn_model *model)
         free(vectors);
         return false;
     }
-    double *parent = run.model.shift + p->settings + 1;
-    memcpy(parent, run.at.value, p->settings * sizeof *parent);
-    run.model.parent = parent;
-    run.model.parent_pressure = run.at.pressure;
-    run.model.base = run.at;
-    run.model.x = vectors;
     *model = run.model;
     return true;
 }

@@ -1,14 +1,16 @@
 /* Gauss-Newton search on what the solver sees rather than on C_w: wave residuals r_m of several
  * settings, |r_m|^2 = C_w, and the velocities that make the pressure, all nearly linear in the
- * shape. Each step differentiates them on a coarse mesh at the best design so far, whose own values
- * are those of the fine mesh, and solves
+ * shape. They are differentiated on a coarse mesh; each step solves
  *
- *     min tau   s.t.  |r_m + J_m d|^2 / C_m <= offset_m + share_m tau   (settings m),
- *                     pressure(z + Z d) / parent <= bound,   known limits,   box,   |d| <= radius
+ *     min tau + penalty e   s.t.  |r_m + J_m d|^2 / C_m <= tau                       (objective),
+ *                                 |r_m + J_m d|^2 / C_m <= offset_m + share_m tau + e   (others),
+ *                                 pressure(z + Z d) / parent <= bound + e,
+ *                                 known limits,   box,   |d| <= radius,   e >= 0
  *
- * (C_m of the parent). A design counts by its fine values: one that lowers the objective, or comes
- * nearer to the limits for it, is where the next step starts; else what it breaks is tightened and
- * the radius halved. */
+ * (C_m of the parent; Fletcher's Sl1QP, with the largest excess for their sum) about the fine
+ * values of the best design so far. A step counts by its own fine values, in the same penalty
+ * function, and corrects the derivatives by Broyden's update: a solve on the fine mesh costs a
+ * tenth of new derivatives, which are taken where that no longer leads on. */
 #ifndef HULLOPT_GAUSS_NEWTON_H
 #define HULLOPT_GAUSS_NEWTON_H
 
@@ -22,6 +24,11 @@ struct gn_setting {
     double offset, share; /* the objective: 0, 1; a limit b: b, 0; at least the part f of the gain:
                              1 - f, f */
 };
+
+static inline bool gn_is_objective(const struct gn_setting *setting)
+{
+    return setting->share == 1 && setting->offset == 0;
+}
 
 /* What the fine or the coarse mesh says of a design. */
 struct gn_sample {
@@ -52,7 +59,8 @@ struct gn_problem {
     void *user_data;
 };
 
-/* Starts from x = 0, the parent, and ends when a step gains less than 0.2 % or fine() says stop.
+/* Starts from x = 0, the parent, and ends when new derivatives led to less than 0.5 % and promise
+ * less than 0.1 %, or fine() says stop.
  * Fills x[n] with the best design within all limits. false: out of memory, or the parent has no
  * value. */
 bool gn_run(const struct gn_problem *problem, double *x);

@@ -15,9 +15,10 @@ bool gn_model_create(const struct gn_problem *problem, struct gn_model *model)
     *model = (struct gn_model){.problem = problem};
     model->jacobian = malloc(problem->settings * n * R * sizeof(double));
     model->pressure = malloc((n * pressure + 1) * sizeof(double));
-    model->shift = calloc(2 * problem->settings + 1, sizeof(double));
+    model->parent = malloc(problem->settings * sizeof(double));
+    model->anchor = calloc(n, sizeof(double));
     model->work = malloc(work * sizeof(double));
-    if (model->jacobian && model->pressure && model->shift && model->work)
+    if (model->jacobian && model->pressure && model->parent && model->anchor && model->work)
         return true;
     gn_model_free(model);
     return false;
@@ -27,7 +28,8 @@ void gn_model_free(struct gn_model *model)
 {
     free(model->jacobian);
     free(model->pressure);
-    free(model->shift);
+    free(model->parent);
+    free(model->anchor);
     free(model->work);
     *model = (struct gn_model){0};
 }
@@ -46,11 +48,44 @@ void gn_model_differentiate(struct gn_model *model, size_t k, double step,
 }
 
 /* Adds the columns of a Jacobian to a vector of `size` numbers. */
-static void advance(size_t n, size_t size, const double *jacobian, const double *d, double *vector)
+static void add_columns(size_t n, size_t size, const double *jacobian, const double *d,
+                        double *vector)
 {
     for (size_t k = 0; k < n; k++)
         for (size_t i = 0; i < size && d[k] != 0; i++)
             vector[i] += jacobian[k * size + i] * d[k];
+}
+
+/* Broyden's update of one Jacobian: weight' d = 1, and jacobian d becomes after - before. */
+static void secant(size_t n, size_t size, double *jacobian, const double *before,
+                   const double *after, const double *d, const double *weight, double *error)
+{
+    for (size_t i = 0; i < size; i++)
+        error[i] = before[i] - after[i];
+    add_columns(n, size, jacobian, d, error);
+    for (size_t k = 0; k < n; k++)
+        for (size_t i = 0; i < size; i++)
+            jacobian[k * size + i] -= error[i] * weight[k];
+}
+
+void gn_model_update(struct gn_model *model, const double *d, const struct gn_sample *moved)
+{
+    const struct gn_problem *p = model->problem;
+    size_t n = p->n, pressure = POINT * p->points;
+    double *error = model->work, *weight = error + R + 2 * pressure, square = 0;
+    for (size_t k = 0; k < n; k++) {
+        double half = (p->upper[k] - p->lower[k]) / 2;
+        weight[k] = d[k] / (half * half);
+        square += d[k] * weight[k];
+    }
+    for (size_t k = 0; k < n; k++)
+        weight[k] /= square;
+    for (size_t m = 0; m < p->settings && square > 0; m++)
+        secant(n, R, model->jacobian + m * n * R, model->base.residual + m * R,
+               moved->residual + m * R, d, weight, error);
+    if (pressure && square > 0)
+        secant(n, pressure, model->pressure, (const double *)model->base.point,
+               (const double *)moved->point, d, weight, error);
 }
 
 static void project(size_t n, size_t size, const double *jacobian, const double *vector,
@@ -71,7 +106,7 @@ static double ratio(const struct gn_model *model, size_t m, const double *d, dou
     const double *base = model->base.residual + m * R, *jacobian = model->jacobian + m * n * R;
     double *r = model->work, change = 0;
     memcpy(r, base, R * sizeof *r);
-    advance(n, R, jacobian, d, r);
+    add_columns(n, R, jacobian, d, r);
     for (size_t i = 0; i < R; i++)
         change += r[i] * r[i] - base[i] * base[i];
     if (gradient)
@@ -86,7 +121,7 @@ static double pressure_ratio(const struct gn_model *model, const double *d, doub
     double *z = model->work + R, *slope = z + size;
     memcpy(z, model->base.point, size * sizeof *z);
     double before = igabem_pressure_sum(p->points, model->base.point, NULL);
-    advance(p->n, size, model->pressure, d, z);
+    add_columns(p->n, size, model->pressure, d, z);
     double after = igabem_pressure_sum(p->points, (const igabem_pressure_sample *)z,
                                        (igabem_pressure_sample *)slope);
     if (gradient)
@@ -94,7 +129,8 @@ static double pressure_ratio(const struct gn_model *model, const double *d, doub
     return (model->base.pressure + after - before) / model->parent_pressure;
 }
 
-/* The variables of the step are d and, last, tau. */
+/* The variables of the step are d, tau and, last, by how much the worst of the limits that only
+ * solves tell is broken: there is a step whatever the limits are, and the l1 penalty is exact. */
 struct row {
     const struct gn_model *model;
     size_t setting;
@@ -102,29 +138,33 @@ struct row {
 
 static double objective(unsigned n, const double *x, double *gradient, void *data)
 {
-    (void)data;
+    const struct gn_model *model = data;
     for (unsigned k = 0; gradient && k < n; k++)
-        gradient[k] = k + 1 == n;
-    return x[n - 1];
+        gradient[k] = k + 1 == n ? model->penalty : k + 2 == n;
+    return x[n - 2] + model->penalty * x[n - 1];
 }
 
 static double setting_limit(unsigned n, const double *x, double *gradient, void *data)
 {
     const struct row *row = data;
     const struct gn_setting *setting = &row->model->problem->setting[row->setting];
-    if (gradient)
-        gradient[n - 1] = -setting->share;
-    return ratio(row->model, row->setting, x, gradient) + row->model->shift[row->setting] -
-           setting->offset - setting->share * x[n - 1];
+    double elastic = !gn_is_objective(setting);
+    if (gradient) {
+        gradient[n - 2] = -setting->share;
+        gradient[n - 1] = -elastic;
+    }
+    return ratio(row->model, row->setting, x, gradient) +
+           elastic * (row->model->margin - x[n - 1]) - setting->offset - setting->share * x[n - 2];
 }
 
 static double pressure_limit(unsigned n, const double *x, double *gradient, void *data)
 {
     const struct gn_model *model = data;
-    if (gradient)
-        gradient[n - 1] = 0;
-    return pressure_ratio(model, x, gradient) + model->shift[model->problem->settings] -
-           model->problem->pressure;
+    if (gradient) {
+        gradient[n - 2] = 0;
+        gradient[n - 1] = -1;
+    }
+    return pressure_ratio(model, x, gradient) + model->margin - model->problem->pressure - x[n - 1];
 }
 
 static void known_limits(unsigned limits, double *value, unsigned n, const double *x,
@@ -137,7 +177,7 @@ static void known_limits(unsigned limits, double *value, unsigned n, const doubl
         at[k] = model->x[k] + x[k];
     bool known = p->limit(p->user_data, at, value);
     for (unsigned i = 0; gradient && i < limits; i++)
-        gradient[i * n + n - 1] = 0;
+        gradient[i * n + n - 2] = gradient[i * n + n - 1] = 0;
     for (size_t k = 0; k < p->n && gradient; k++) {
         double keep = at[k], step = LIMIT_STEP * (p->upper[k] - p->lower[k]) / 2;
         for (int s = 0; s < 2; s++) {
@@ -158,10 +198,11 @@ static void set_box(const struct gn_model *model, double radius, nlopt_opt step,
     for (int side = 0; side < 2; side++) {
         for (size_t k = 0; k < p->n; k++) {
             double reach = radius * (p->upper[k] - p->lower[k]) / 2;
-            bound[k] = side ? fmax(0, fmin(p->upper[k] - model->x[k], reach))
-                            : fmin(0, fmax(p->lower[k] - model->x[k], -reach));
+            double low = fmax(p->lower[k], model->anchor[k] - reach),
+                   high = fmin(p->upper[k], model->anchor[k] + reach);
+            bound[k] = side ? fmax(0, high - model->x[k]) : fmin(0, low - model->x[k]);
         }
-        bound[p->n] = side ? HUGE_VAL : 0;
+        bound[p->n] = bound[p->n + 1] = side ? HUGE_VAL : 0;
         if (side)
             nlopt_set_upper_bounds(step, bound);
         else
@@ -175,7 +216,7 @@ static double worst(const struct gn_model *model, const double *d)
     const struct gn_problem *p = model->problem;
     double most = 0;
     for (size_t m = 0; m < p->settings; m++)
-        if (p->setting[m].share == 1 && p->setting[m].offset == 0)
+        if (gn_is_objective(&p->setting[m]))
             most = fmax(most, ratio(model, m, d, NULL));
     return most;
 }
@@ -201,43 +242,56 @@ static bool add_rows(const struct gn_model *model, nlopt_opt step, struct row *r
     return ok;
 }
 
-/* By how much the step breaks its rows. */
-static double violation(const struct gn_model *model, const double *x, double *limits)
+/* By how much the step breaks the limits that are known beforehand. */
+static double trespass(const struct gn_model *model, const double *x, double *limits)
 {
     const struct gn_problem *p = model->problem;
-    unsigned n = (unsigned)p->n + 1;
     double most = 0;
-    for (size_t m = 0; m < p->settings; m++)
-        most = fmax(most, setting_limit(n, x, NULL, &(struct row){model, m}));
-    if (!isnan(p->pressure))
-        most = fmax(most, pressure_limit(n, x, NULL, (void *)model));
     if (p->limits)
-        known_limits((unsigned)p->limits, limits, n, x, NULL, (void *)model);
+        known_limits((unsigned)p->limits, limits, (unsigned)p->n + 2, x, NULL, (void *)model);
     for (size_t i = 0; i < p->limits; i++)
         most = fmax(most, limits[i]);
     return most;
 }
 
-double gn_model_minimise(const struct gn_model *model, double radius, double *d)
+/* By how much it breaks the others, at the tau that its settings make. */
+static double excess(const struct gn_model *model, double *x, double tau)
+{
+    const struct gn_problem *p = model->problem;
+    unsigned n = (unsigned)p->n + 2;
+    double most = 0;
+    x[n - 2] = tau;
+    x[n - 1] = 0;
+    for (size_t m = 0; m < p->settings; m++)
+        if (!gn_is_objective(&p->setting[m]))
+            most = fmax(most, setting_limit(n, x, NULL, &(struct row){model, m}));
+    return isnan(p->pressure) ? most : fmax(most, pressure_limit(n, x, NULL, (void *)model));
+}
+
+double gn_model_minimise(const struct gn_model *model, double radius, double *d, double *broken)
 {
     enum { EVALUATIONS = 400 };
-    const double broken = 1e-4; /* a step that is no solution */
+    const double outside = 1e-4; /* a step that is no solution */
     /* tau starts clear of its rows: on them SLSQP may take its first step for its last. */
-    const double slack = 1.5;
+    const double clear = 1.5;
     const struct gn_problem *p = model->problem;
-    nlopt_opt step = nlopt_create(NLOPT_LD_SLSQP, (unsigned)p->n + 1);
+    size_t n = p->n + 2;
+    nlopt_opt step = nlopt_create(NLOPT_LD_SLSQP, (unsigned)n);
     struct row *rows = malloc(p->settings * sizeof *rows);
-    double *x = calloc(2 * (p->n + 1) + p->limits, sizeof *x), promised = NAN, tau;
+    double *x = calloc(2 * n + p->limits, sizeof *x), promised = NAN, least;
     if (step && rows && x && add_rows(model, step, rows)) {
-        set_box(model, radius, step, x + p->n + 1);
-        nlopt_set_min_objective(step, objective, NULL);
+        set_box(model, radius, step, x + n);
+        nlopt_set_min_objective(step, objective, (void *)model);
         nlopt_set_xtol_rel(step, 1e-7);
         nlopt_set_maxeval(step, EVALUATIONS);
-        x[p->n] = slack * worst(model, x);
-        nlopt_optimize(step, x, &tau);
-        if (violation(model, x, x + 2 * (p->n + 1)) <= broken) {
+        x[n - 2] = clear * worst(model, x);
+        x[n - 1] = clear * excess(model, x, x[n - 2] / clear);
+        x[n - 2] = clear * worst(model, x);
+        nlopt_optimize(step, x, &least);
+        if (trespass(model, x, x + 2 * n) <= outside) {
+            promised = worst(model, x);
+            *broken = excess(model, x, promised);
             memcpy(d, x, p->n * sizeof *d);
-            promised = worst(model, d);
         }
     }
     nlopt_destroy(step);

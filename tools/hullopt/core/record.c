@@ -392,7 +392,7 @@ static size_t unpack_list(const char *name, size_t most, const bayesopt_point *p
 
 static const char MODEL[] = "cw_model", SPEED[] = "cw_speed", PARTICULAR[] = "particular";
 
-bool record_tell(struct record *record, const struct evaluation *e, const double *ratio)
+bool record_tell(struct record *record, struct evaluation *e, const double *ratio)
 {
     enum { NUMBERS = 2 * PARTICULARS };
     bayesopt_attribute attributes[MEMBERS_MOST + CONFIG_MODELS_MOST + SPEEDS_MOST + NUMBERS];
@@ -402,13 +402,15 @@ bool record_tell(struct record *record, const struct evaluation *e, const double
     n += pack_list(SPEED, e->speeds, e->cw_speed, names + e->models, attributes + n);
     n += pack_list(PARTICULAR, NUMBERS, e->particular[0], names + e->models + e->speeds,
                    attributes + n);
+    bool first = bayesopt_count(record->bo) == 0; /* the parent keeps 0 */
     const bayesopt_result result = {.f = e->failed ? NAN : e->objective,
                                     .constraints = ratio,
                                     .note = e->failed ? e->reason : NULL,
                                     .n_attributes = n,
                                     .attributes = attributes};
-    return done(e->id ? bayesopt_tell_result(record->bo, e->id, &result)
-                      : bayesopt_tell_point_result(record->bo, e->u, &result, NULL));
+    return done(e->id
+                    ? bayesopt_tell_result(record->bo, e->id, &result)
+                    : bayesopt_tell_point_result(record->bo, e->u, &result, first ? NULL : &e->id));
 }
 
 /* Those without a value, a place that is not asked for, are not on record. */

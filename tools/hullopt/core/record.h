@@ -49,8 +49,8 @@ bool record_get_array(const struct record *record, const char *name, size_t *row
                       double **values);
 
 /* Tells the search what became of a design, with all its figures: in one transaction. ratio: of
- * outcome_ratios(). id 0: the parent, which was not asked for. */
-bool record_tell(struct record *record, const struct evaluation *evaluation, const double *ratio);
+ * outcome_ratios(). id 0: not asked for; filled, but for the parent, which comes first. */
+bool record_tell(struct record *record, struct evaluation *evaluation, const double *ratio);
 /* Every design that was told, the parent first; u is borrowed from the record. The caller frees the
  * list. */
 bool record_evaluations(const struct record *record, struct evaluation **list, size_t *n);

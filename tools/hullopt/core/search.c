@@ -9,6 +9,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+static const char SEARCH[] = "search";
+
 size_t search_budget(const struct config *config)
 {
     bool descent = method_row(config->method)->kind == METHOD_DESCENT;
@@ -78,6 +80,7 @@ static bool begin(struct search *s)
     double *zero = calloc(galv_model_modes(s->problem->model), sizeof *zero);
     if (!zero)
         return core_no_memory();
+    core_show(s->watch, SEARCH, 0, "the original");
     evaluation_start(0, "parent", zero, &s->parent);
     evaluate_parent(s->problem, &s->parent, NULL, NULL);
     bool ok = s->parent.failed ? core_fail("%s: the parent cannot be evaluated (%s)", config->hull,
@@ -97,7 +100,7 @@ void search_show(const struct search *s, const char *what)
     snprintf(detail, sizeof detail, "%zu of %zu, %zu failed, best C_w %.4e (%+.1f %%)%s%s", s->done,
              all, s->failed, s->best, 100 * (s->best / s->parent.cw - 1), what ? ", " : "",
              what ? what : "");
-    core_show(s->watch, "search", (double)s->done / (double)all, detail);
+    core_show(s->watch, SEARCH, (double)s->done / (double)all, detail);
 }
 
 /* Figures and value are told at once: a session that dies leaves a point that is asked again. */
