@@ -167,6 +167,23 @@ static void test_designs(void)
     }
 }
 
+/* Initial designs of the derivatives at the original are better than it, each another, and kept
+ * with the run. */
+static void test_initial_designs(void)
+{
+    static struct history whole, again;
+    run_whole("bayesian, design: forecast", BUDGET, &whole);
+    CU_ASSERT_EQUAL(whole.n, BUDGET + 1);
+    CU_ASSERT_FALSE(has_twins(&whole));
+    for (size_t i = 1; i <= BUDGET / 2; i++)
+        CU_ASSERT_TRUE(whole.value[i] > 0 && whole.value[i] < whole.value[0]);
+    record_remove(store);
+    CU_ASSERT_EQUAL(session(4), 7);
+    CU_ASSERT_EQUAL(session(-1), 0);
+    read_history(&again);
+    CU_ASSERT_TRUE(again.n == whole.n && memcmp(again.u, whole.u, sizeof whole.u) == 0);
+}
+
 /* What is forecast, in a process of its own. */
 static struct forecast forecast_alone(void)
 {
@@ -265,6 +282,7 @@ static const struct check_case cases[] = {
     {"runs beside each other", test_compare},
     {"a search that dies goes on by the same designs", test_resume},
     {"designs alone", test_designs},
+    {"initial designs by derivatives", test_initial_designs},
     {"the one minimum", test_minimum},
 };
 

@@ -22,7 +22,9 @@ static const char *formulation(int value)
 
 static const char *design(int value)
 {
-    return value > BAYESOPT_DESIGN_STLBO ? NULL : bayesopt_design_name((bayesopt_design_kind)value);
+    return value == CONFIG_DESIGN_FORECAST ? "forecast"
+           : value > BAYESOPT_DESIGN_STLBO ? NULL
+                                           : bayesopt_design_name((bayesopt_design_kind)value);
 }
 
 static const char *strategy(int value)

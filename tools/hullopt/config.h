@@ -42,7 +42,7 @@ struct config {
     igabem_formulation model[CONFIG_MODELS_MOST];
     double confirm; /* least share of the gain that they see; NAN: the worst of all counts */
     size_t initial, iterations;
-    bayesopt_design_kind design;
+    int design; /* a bayesopt_design_kind, or by the derivatives at the original */
     bayesopt_strategy strategy;
     uint64_t search_seed;
     igabem_options solver; /* froude, gravity, density and everything else of a solve */

@@ -278,6 +278,18 @@ static void fill(struct descent *d, const struct gn_model *model, struct forecas
         f->without[k] = drop(d->base->config, k, &other) ? least(d, model, &other, step) : NAN;
 }
 
+/* The model at the original; setting: room for SETTINGS_MOST, borrowed. */
+static bool model_parent(struct problem *problem, struct gn_setting *setting, struct descent *d,
+                         struct gn_model *model)
+{
+    if (!start(problem, setting, d))
+        return false;
+    d->problem.fine = value_parent;
+    return gn_at_parent(&d->problem, model) ||
+           core_fail("%s: the derivatives at the original cannot be had (%s)",
+                     problem->config->path, core_sentence());
+}
+
 bool forecast_run(struct problem *problem, struct forecast *f)
 {
     struct gn_setting setting[SETTINGS_MOST];
@@ -287,19 +299,54 @@ bool forecast_run(struct problem *problem, struct forecast *f)
         f->without[k] = NAN;
     for (size_t i = 0; i < FORECAST_SHARES; i++)
         f->confirmed[i] = NAN;
-    if (!start(problem, setting, &d))
-        return false;
-    d.problem.fine = value_parent;
-    double *step = calloc(d.problem.n, sizeof *step);
-    bool ok = (step || core_no_memory()) &&
-              (gn_at_parent(&d.problem, &model) ||
-               core_fail("%s: the derivatives at the original cannot be had (%s)",
-                         problem->config->path, core_sentence()));
+    double *step = calloc(galv_model_modes(problem->model), sizeof *step);
+    bool ok = (step || core_no_memory()) && model_parent(problem, setting, &d, &model);
     if (ok) {
         fill(&d, &model, f, step);
         f->solves = d.differentiated;
         gn_leave(&model);
     }
     free(step);
+    return ok;
+}
+
+/* Where the model promises most about each point of a Latin hypercube: designs unlike each other,
+ * all of which keep the limits by the model. The first is that of the whole box. */
+static bool fill_design(struct gn_model *model, size_t n, double *cube, double *u)
+{
+    const struct gn_problem *p = model->problem;
+    size_t made = 0;
+    for (size_t i = 0; i < DRAWS * n && made < n; i++) {
+        double broken;
+        for (size_t k = 0; k < p->n; k++)
+            model->anchor[k] = p->lower[k] + cube[i * p->n + k] * (p->upper[k] - p->lower[k]);
+        if (!isnan(
+                gn_model_minimise(model, i ? DESIGN_RADIUS : WHOLE_BOX, u + made * p->n, &broken)))
+            made++;
+    }
+    return made == n || core_fail("only %zu of %zu initial designs keep the known limits", made, n);
+}
+
+bool descent_design(struct problem *problem, size_t n, double *u)
+{
+    struct gn_setting setting[SETTINGS_MOST];
+    struct gn_model model;
+    struct descent d = {.search = NULL};
+    bayesopt_design_options options;
+    bayesopt_design_options_init(&options);
+    options.seed = problem->config->search_seed;
+    size_t modes = galv_model_modes(problem->model);
+    double *cube = malloc(DRAWS * n * modes * sizeof *cube);
+    bool ok =
+        (cube || core_no_memory()) &&
+        (bayesopt_design(BAYESOPT_DESIGN_LHS, DRAWS * n, modes, &options, cube) == BAYESOPT_OK ||
+         core_fail("%s", bayesopt_last_error())) &&
+        model_parent(problem, setting, &d, &model);
+    if (ok) {
+        model.margin = DESIGN_MARGIN;
+        ok = fill_design(&model, n, cube, u);
+        gn_leave(&model);
+    }
+    free(cube);
     return ok;
 }

@@ -10,4 +10,8 @@
  * not told again. */
 bool descent_run(struct search *search, double *u);
 
+/* Fills u[n x modes] with designs to begin a search of another kind with: where the model of one
+ * step, at the original, promises most about points all over the box, within all limits by it. */
+bool descent_design(struct problem *problem, size_t n, double *u);
+
 #endif

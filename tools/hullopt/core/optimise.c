@@ -1,6 +1,7 @@
 #include "core/optimise.h"
 
 #include "core/constraints.h"
+#include "core/descent.h"
 #include "core/search.h"
 #include "core/verify.h"
 #include "core/waves.h"
@@ -19,6 +20,20 @@ static bool write_record(struct problem *problem, const char *path)
     return ok;
 }
 
+/* Initial designs by the derivatives at the original, where they are asked for. */
+static bool make_initial(struct problem *problem, const struct core_watch *watch)
+{
+    const struct config *config = problem->config;
+    if (config->design != CONFIG_DESIGN_FORECAST ||
+        method_row(config->method)->kind != METHOD_GAUSSIAN_PROCESS)
+        return true;
+    core_show(watch, "initial designs", 0, NULL);
+    problem->initial =
+        malloc(config->initial * galv_model_modes(problem->model) * sizeof *problem->initial);
+    return (problem->initial || core_no_memory()) &&
+           descent_design(problem, config->initial, problem->initial);
+}
+
 /* The record is made under another name and renamed once complete. */
 bool optimise_begin(struct problem *problem, const galv_shape *shape, const char *path,
                     const struct core_watch *watch)
@@ -28,7 +43,8 @@ bool optimise_begin(struct problem *problem, const galv_shape *shape, const char
         return core_no_memory();
     strcat(strcpy(fresh, path), ".new");
     record_remove(fresh);
-    bool ok = problem_reduce(problem, shape, watch) && write_record(problem, fresh);
+    bool ok = problem_reduce(problem, shape, watch) && make_initial(problem, watch) &&
+              write_record(problem, fresh);
     if (ok && rename(fresh, path) != 0)
         ok = core_fail("%s: %s", path, strerror(errno));
     if (!ok)
@@ -53,6 +69,8 @@ bool optimise_resume(struct problem *problem, const char *path)
     if (ok) {
         ok = problem_recall(problem, origin.model, origin.gradient);
         origin.model = NULL;
+        problem->initial = origin.initial;
+        origin.initial = NULL;
     }
     origin_free(&origin);
     return ok;

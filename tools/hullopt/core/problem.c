@@ -199,6 +199,7 @@ void problem_free(struct problem *problem)
     design_free(&problem->best);
     galv_limits_free(problem->limits);
     galv_model_free(problem->model);
+    free(problem->initial);
     nurbs_grid_free(problem->grid);
     nurbs_grid_free(problem->moved);
     nurbs_hull_free(problem->source);

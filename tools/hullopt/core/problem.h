@@ -31,6 +31,7 @@ struct problem {
     galv_model *model;                 /* NULL before problem_reduce() or problem_recall() */
     galv_limits *limits;               /* of its latent points */
     double particular[PARTICULARS][2]; /* of the parent, by particulars_of() */
+    double *initial;                   /* designs of its own to begin a search with, or NULL */
 };
 
 /* Reads the hull, samples the grid, builds the parent, freezes the options on it. */

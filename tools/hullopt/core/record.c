@@ -239,6 +239,8 @@ static bool get_model(const struct record *record, galv_model **model)
     return ok;
 }
 
+static const char INITIAL[] = "initial";
+
 bool record_put_origin(struct record *record, const struct problem *problem)
 {
     const double format = FORMAT, length = problem_length(problem);
@@ -253,6 +255,9 @@ bool record_put_origin(struct record *record, const struct problem *problem)
            record_put_array(record, "grid", 1, 2, grid) && put_model(record, problem->model) &&
            (!gradient || record_put_array(record, "volume.gradient", 1,
                                           galv_model_modes(problem->model), gradient)) &&
+           (!problem->initial ||
+            record_put_array(record, INITIAL, problem->config->initial,
+                             galv_model_modes(problem->model), problem->initial)) &&
            record_put_text(record, CONFIGURATION, problem->config->text) &&
            record_put_array(record, FORMAT_NAME, 1, 1, &format);
 }
@@ -295,6 +300,7 @@ static bool read_origin(const struct record *record, struct origin *o)
     if (!check_format(record) || !record_get_text(record, CONFIGURATION, &o->configuration) ||
         !get_solver(record, &o->solver) || !get_numbers(record, "length", 1, &o->length) ||
         !get_numbers(record, "grid", 2, grid) || !get_model(record, &o->model) ||
+        !record_get_array(record, INITIAL, &rows, &columns, &o->initial) ||
         !record_get_array(record, "volume.gradient", &rows, &columns, &o->gradient))
         return false;
     for (int k = 0; k < 2; k++)
@@ -322,6 +328,7 @@ void origin_free(struct origin *origin)
 {
     free(origin->configuration);
     free(origin->gradient);
+    free(origin->initial);
     galv_model_free(origin->model);
     *origin = (struct origin){0};
 }

@@ -22,6 +22,7 @@ struct origin {
     igabem_options solver; /* as frozen on the parent */
     galv_model *model;
     double *gradient; /* of the volume, modes numbers, or NULL */
+    double *initial;  /* of a search, search.initial x modes numbers, or NULL */
     size_t grid[2];
     double length;
 };

@@ -27,7 +27,10 @@ bool search_open(struct problem *problem, const char *path, struct record *recor
     options.seed = config->search_seed;
     const struct method_row *method = method_row(config->method);
     bool design = method->kind == METHOD_DESIGN;
-    options.initial_kind = design ? method->design : config->design;
+    options.initial_kind = design             ? method->design
+                           : problem->initial ? BAYESOPT_DESIGN_LHS
+                                              : (bayesopt_design_kind)config->design;
+    options.initial_x = problem->initial;
     options.initial_n = config->initial + (design ? config->iterations : 0);
     options.max_evaluations = search_budget(config);
     options.strategy = config->strategy;
