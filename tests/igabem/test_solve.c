@@ -78,7 +78,8 @@ static void test_freeze(void)
     igabem_hull_free(spheroid);
 }
 
-/* Hulls with knots here and there get uniform ones for their density, which `refine` divides. */
+/* Hulls with knots here and there get uniform ones for their density, in the proportion of their
+ * spans and enough for 400 unknowns, which `refine` divides. */
 static void test_irregular_knots(void)
 {
     nurbs_surface *surface = NULL, *crowded = NULL;
@@ -91,13 +92,19 @@ static void test_irregular_knots(void)
         IGABEM_OK);
     igabem_options options;
     igabem_options_init(&options);
-    options.refine = 1;
     options.froude = 0.3;
     CU_ASSERT_EQUAL(igabem_options_freeze(hull, &options), IGABEM_OK);
-    CU_ASSERT_EQUAL(options.elements_u, 5);
-    CU_ASSERT_EQUAL(options.elements_v, 1);
+    CU_ASSERT_EQUAL(options.refine, 1);
+    CU_ASSERT_EQUAL(options.refine_v, 1);
+    int nu = options.elements_u, nv = options.elements_v, unknowns = (nu + 3) * (nv + 3);
+    CHECK_CLOSE((double)nu / nv, 5.0, 0.5);
+    CU_ASSERT_TRUE(unknowns >= 400 && unknowns < 480);
+    igabem_options same = setting(nu, nv);
+    CHECK_RELATIVE(cw_of(hull, &options), cw_of(plain, &same), 1e-5);
+    options.elements_u = 5;
+    options.elements_v = 1;
     options.refine = options.refine_v = 2;
-    igabem_options same = setting(10, 2);
+    same = setting(10, 2);
     CHECK_RELATIVE(cw_of(hull, &options), cw_of(plain, &same), 1e-5);
     nurbs_surface_free(surface);
     nurbs_surface_free(crowded);

@@ -47,15 +47,16 @@ typedef struct igabem_options {
 
     int refine;     /**< each knot span split in this many (l of the paper's eq. 14); 0 (default):
                        1 with refine_v, elements_u or elements_v, else by igabem_options_refine() for
-                       400     unknowns */
+                       400 unknowns */
     int refine_v;   /**< the same around the hull, refine then being along it: the direction of a
                        patch that gains more in x is along; 0: like refine */
     int elements_u; /**< > 0: the density has its own uniform knots with this many spans along the
                        hull (times refine), whatever the knots of the hull; several patches share
                        them by their length, each at least 1, and one that lies across the hull (a
                        transom) takes spans as wide as those around; 0: the hull's own knots; -1
-                       (default): own knots, as many as the hull has, when the spans of a patch
-                       differ by more than a factor of 3, as after knot removal; else 0 */
+                       (default): own knots, as many as the hull has or the 400 unknowns need, when
+                       the spans of a patch differ by more than a factor of 3, as after knot
+                       removal; else 0 */
     int elements_v; /**< the same around the half girth; -1 */
     double waterline_span; /**< own knots keep spans along a waterline at least this wide, as a
                               share of the girth (of the range of the parameter on one patch), and

@@ -111,18 +111,49 @@ static igabem_status check(const igabem_options *options)
     return status;
 }
 
+/* Unknowns of patch p with so many spans along u and v. */
+static double patch_unknowns(const struct hull_patch *patch, int least_degree, const int spans[2])
+{
+    double product = 1.0;
+    for (int d = 0; d < 2; d++) {
+        int degree = nurbs_surface_degree(patch->surface, d);
+        product *= spans[d] + (degree > least_degree ? degree : least_degree);
+    }
+    return product;
+}
+
+/* With own knots, as the density shares them among the patches. */
+static double count_own(const igabem_hull *hull, int least_degree, const int elements[2])
+{
+    double sum = 0.0;
+    for (size_t p = 0; p < hull->n; p++) {
+        int spans[2];
+        for (int d = 0; d < 2; d++)
+            spans[d] = hull_share(hull, p, d, elements[hull_is_around(&hull->patches[p], d)]);
+        sum += patch_unknowns(&hull->patches[p], least_degree, spans);
+    }
+    return sum;
+}
+
 /* Knots that are crowded in some places and far apart in others waste unknowns here and lack them
- * there, and they move when the shape does. */
+ * there, and they move when the shape does: as many uniform ones as the hull has, or, where it has
+ * few, enough. */
 static void choose_elements(const igabem_hull *hull, igabem_options *options)
 {
-    int *elements[2] = {&options->elements_u, &options->elements_v};
-    int own = 0;
+    int own = 0, uniform[2] = {0, 0};
     for (size_t p = 0; p < hull->n; p++)
         for (int d = 0; d < 2; d++)
             own |= hull->patches[p].span_ratio[d] > irregular_spans;
-    for (int d = 0; d < 2; d++)
-        if (*elements[d] < 0)
-            *elements[d] = own ? (int)lround(hull->run_spans[d]) : 0;
+    for (double factor = 1.0; own && factor < 16.0; factor *= 1.02) {
+        for (int d = 0; d < 2; d++)
+            uniform[d] = (int)lround(factor * hull->run_spans[d]);
+        if (count_own(hull, options->degree, uniform) >= (double)enough_unknowns)
+            break;
+    }
+    if (options->elements_u < 0)
+        options->elements_u = uniform[0];
+    if (options->elements_v < 0)
+        options->elements_v = uniform[1];
 }
 
 static void choose_refine(const igabem_hull *hull, igabem_options *options)
@@ -199,11 +230,11 @@ igabem_status igabem_options_freeze(const igabem_hull *hull, igabem_options *opt
     igabem_status status = check(options);
     if (status != IGABEM_OK)
         return status;
+    choose_elements(hull, options);
     if (options->refine == 0)
         choose_refine(hull, options);
     if (options->refine_v == 0)
         options->refine_v = options->refine;
-    choose_elements(hull, options);
     if (options->formulation == IGABEM_FORMULATION_AUTO)
         options->formulation = formulation_choose(hull);
     choose_surface(hull, options);
@@ -220,13 +251,10 @@ static double count_unknowns(const igabem_hull *hull, int least_degree, const in
     double sum = 0.0;
     for (size_t p = 0; p < hull->n; p++) {
         const struct hull_patch *patch = &hull->patches[p];
-        double product = 1.0;
-        for (int d = 0; d < 2; d++) {
-            int degree = nurbs_surface_degree(patch->surface, d);
-            degree = degree > least_degree ? degree : least_degree;
-            product *= (double)patch->spans[d] * parts[hull_is_around(patch, d)] + degree;
-        }
-        sum += product;
+        int spans[2];
+        for (int d = 0; d < 2; d++)
+            spans[d] = (int)patch->spans[d] * parts[hull_is_around(patch, d)];
+        sum += patch_unknowns(patch, least_degree, spans);
     }
     return sum;
 }
