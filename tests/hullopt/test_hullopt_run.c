@@ -359,7 +359,7 @@ static void test_init_and_check(void)
     runner_path(&runner, "plan.yaml", written, sizeof written);
     CU_ASSERT_EQUAL(runner_run(&runner, template), 0);
     CU_ASSERT_PTR_NOT_NULL(strstr(runner.out, "displacement: ±5 %"));
-    CU_ASSERT_PTR_NOT_NULL(strstr(runner.out, "8 designs, then 5 proposals"));
+    CU_ASSERT_PTR_NOT_NULL(strstr(runner.out, "bayesian, at most 14 designs"));
     const char *const json[] = {"check", written, "--json", NULL};
     CU_ASSERT_EQUAL(runner_run(&runner, json), 0);
     json_t *plan = json_loads(runner.out, 0, NULL);

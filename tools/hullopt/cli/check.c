@@ -1,6 +1,7 @@
 #include "cli.h"
 #include "cli/commands.h"
 #include "core/constraints.h"
+#include "core/search.h"
 #include "json_result.h"
 #include "shape_yaml.h"
 
@@ -45,14 +46,10 @@ static bool read_plan(const struct options *options, struct plan *p)
                                            p->config.hull, p->parent.reason);
 }
 
-static size_t evaluations(const struct plan *p)
-{
-    return 1 + p->config.initial + p->config.iterations;
-}
-
 static double seconds(const struct plan *p)
 {
-    return (p->parent.geometry_seconds + p->parent.solve_seconds) * (double)evaluations(p);
+    return (p->parent.geometry_seconds + p->parent.solve_seconds) *
+           (double)search_budget(&p->config);
 }
 
 static bool print_json(const struct plan *p)
@@ -65,8 +62,8 @@ static bool print_json(const struct plan *p)
         (int)nurbs_grid_rows(p->problem.grid), "girth", (int)nurbs_grid_columns(p->problem.grid),
         "parameters", (int)galv_shape_parameters(p->shape), "formulation",
         igabem_formulation_name(p->problem.solver.formulation), "fr", p->problem.solver.froude,
-        "dofs", (int)p->parent.dofs, "cw", p->parent.cw, "evaluations", (int)evaluations(p),
-        "seconds", seconds(p), "warnings", p->warnings);
+        "dofs", (int)p->parent.dofs, "cw", p->parent.cw, "evaluations",
+        (int)search_budget(&p->config), "seconds", seconds(p), "warnings", p->warnings);
     return json_result_print(o, JSON_INDENT(2) | JSON_REAL_PRECISION(15)) == CLI_OK;
 }
 
@@ -108,8 +105,8 @@ static void print_solver(const struct plan *p)
 static void print_search(const struct plan *p)
 {
     const struct config *c = &p->config;
-    printf("%-16s%zu designs, then %zu proposals: about %.0f min on %d threads\n", "search",
-           c->initial, c->iterations, ceil(seconds(p) / 60), cli_threads());
+    printf("%-16s%s, at most %zu designs: about %.0f min on %d threads\n", "search",
+           method_row(c->method)->name, search_budget(c), ceil(seconds(p) / 60), cli_threads());
     printf("%-16sresolution x %d, %zu other speeds\n", "verification", c->verify_refine,
            c->verify_froudes);
 }
