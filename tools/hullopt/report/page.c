@@ -51,6 +51,9 @@ static void hull_section(FILE *out, const struct results *r)
     fputs("</figure></div><figure>\n", out);
     draw_section_areas(out, r);
     figure(out, "Sectional-area curves below the still water.");
+    fputs("<figure>\n", out);
+    draw_fairness(out, r);
+    figure(out, "Slope of the waterline: every extremum is an inflection, every kink a knuckle.");
     fputs("</div>\n", out);
     report_particulars(out, r);
     fputs("</section>\n", out);

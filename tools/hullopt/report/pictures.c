@@ -1,5 +1,6 @@
 #include "report/pictures.h"
 
+#include "constants.h"
 #include "core/constraints.h"
 #include "plot/ship.h"
 
@@ -85,6 +86,55 @@ void draw_section_areas(FILE *out, const struct results *r)
         plot_curve(&plot, &f, N, station, area[k], legend[k].pen);
     plot_legend(&plot, f.left, 20, false, 2, legend);
     plot_embed(&plot, out);
+}
+
+static const double STEEP = 20; /* degrees */
+/* Angles of the pieces of a waterline to the centre plane, at their middles, those of blunt ends
+ * cut off. false: no memory. */
+static bool waterline_angles(const nurbs_hull *hull, size_t *n, double **x, double **angle)
+{
+    double *edge = NULL;
+    bool ok = nurbs_hull_waterline(hull, n, &edge) == NURBS_OK && *n > 2;
+    *x = ok ? malloc(2 * *n * sizeof **x) : NULL;
+    if (*x) {
+        *n -= 1;
+        *angle = *x + *n;
+        for (size_t i = 0; i < *n; i++) {
+            const double *p = edge + 2 * i;
+            (*x)[i] = (p[0] + p[2]) / 2;
+            double degrees = 180 / PI * atan((p[3] - p[1]) / (p[2] - p[0]));
+            (*angle)[i] = fmin(fmax(degrees, -STEEP), STEEP);
+        }
+    }
+    free(edge);
+    return *x != NULL;
+}
+
+void draw_fairness(FILE *out, const struct results *r)
+{
+    struct plot_frame f = {.left = 62, .top = 34, .width = HALF - 76, .height = AREAS - 80};
+    struct plot plot;
+    size_t n[2];
+    double *x[2] = {NULL, NULL}, *angle[2];
+    bool ok = true;
+    f.x = (struct plot_axis){.low = INFINITY, .high = -INFINITY, .label = "x, m"};
+    f.y = (struct plot_axis){.low = INFINITY, .high = -INFINITY, .label = "angle, degrees"};
+    for (int k = 0; k < 2; k++) {
+        ok = ok && waterline_angles(results_hull(r, k), &n[k], &x[k], &angle[k]);
+        if (ok) {
+            plot_include(&f.x, n[k], x[k]);
+            plot_include(&f.y, n[k], angle[k]);
+        }
+    }
+    if (ok && plot_open(&plot, HALF, AREAS, "Angle of the waterline to the centre plane")) {
+        plot_axes(&plot, &f);
+        for (int k = 0; k < 2; k++)
+            plot_curve(&plot, &f, n[k], x[k], angle[k], legend[k].pen);
+        plot_legend(&plot, f.left, 20, false, 2, legend);
+        plot_embed(&plot, out);
+    }
+    free(x[0]);
+    free(x[1]);
 }
 
 static void draw_hull(FILE *out, const char *title, const struct plot_view *view)

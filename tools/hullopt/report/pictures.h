@@ -11,6 +11,8 @@ void draw_history(FILE *out, const struct results *results);
 /* Lines plans of both hulls, one over the other. */
 void draw_lines(FILE *out, const struct results *results);
 void draw_section_areas(FILE *out, const struct results *results);
+/* The slope of the waterline along the hull, in which an inflection is an extremum. */
+void draw_fairness(FILE *out, const struct results *results);
 void draw_original(FILE *out, const struct results *results);
 /* Coloured by how far each point moved, outwards positive. */
 void draw_optimum(FILE *out, const struct results *results);
