@@ -69,6 +69,8 @@ size_t verify_plan(const struct problem *problem, struct verification rows[VERIF
     size_t n = 0;
     char label[80];
     add(rows, options, &n, GROUP_OBJECTIVE, "objective of the search", frozen);
+    if (config->verify_refine == 0)
+        return n;
     plan_models(frozen, rows, options, &n);
     if (config->verify_refine > 1) {
         igabem_options finer = *frozen;
