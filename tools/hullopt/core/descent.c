@@ -143,6 +143,7 @@ static bool limit(void *user_data, const double *u, double *value)
 static void show_line(void *user_data, const char *sentence)
 {
     const struct descent *d = user_data;
+    core_tell(d->search->watch, "design %zu: %s", d->valued, sentence);
     search_show(d->search, sentence);
 }
 

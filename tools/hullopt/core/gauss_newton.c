@@ -13,10 +13,10 @@ static const double FIRST_RADIUS = 0.4, LEAST_RADIUS = 0.02, MOST_RADIUS = 1, GR
                     RESTART_RADIUS = 0.1;
 static const double DIFFERENCE = 0.03; /* step of the differences, half widths */
 static const double LEAST_GAIN = 1e-3, LEAST_OF_A_CYCLE = 5e-3; /* of the ratio */
-enum { CORRECTIONS = 2 };
+enum { MORE_STEPS = 2 };                                        /* with the same derivatives */
 static const double MARGIN = 2e-3; /* by which every limit is tightened */
 /* Shares of the promised progress: a shorter radius below, a longer one above. */
-static const double POOR = 0.25, GOOD = 0.5;
+static const double POOR = 0.25, GOOD = 0.7;
 /* Of an excess: exact as long as it is above the multipliers of the step's problem, which are of
  * order one, and raised where a search would end outside. */
 static const double PENALTY = 3, MORE = 10, MOST_PENALTY = 1000;
@@ -198,27 +198,31 @@ static enum gn_answer try_step(struct run *run, double radius, double least, dou
     return answer;
 }
 
-/* A step of new derivatives, shorter until it makes progress, and steps that correct it within the
- * same radius: what the first broke of a limit the next ones mend by its fine values. */
+/* Steps of new derivatives, shorter until one makes progress. While they come as promised the next
+ * looks farther, and what one broke of a limit the next mends by its fine values. */
 static enum gn_answer cycle(struct run *run, double *radius)
 {
-    double first = -1, share;
+    double share = -1;
     enum gn_answer answer = GN_VALUED;
-    while (first <= 0 && *radius >= LEAST_RADIUS) {
-        answer = try_step(run, *radius, LEAST_GAIN, &first);
-        if (answer == GN_STOP || isnan(first))
+    while (share <= 0 && *radius >= LEAST_RADIUS) {
+        answer = try_step(run, *radius, LEAST_GAIN, &share);
+        if (answer == GN_STOP || isnan(share))
             return answer;
-        if (first < POOR)
+        if (share < POOR)
             *radius /= 2;
     }
-    for (int k = 0; k < CORRECTIONS && first > 0 && worst_excess(run, &run->at) > 0; k++) {
-        answer = try_step(run, fmax(*radius, LEAST_RADIUS), LEAST_GAIN, &share);
-        if (answer == GN_STOP || !(share > POOR))
+    for (int k = 0; k < MORE_STEPS && share > POOR; k++) {
+        if (share > GOOD)
+            *radius = fmin(GROWTH * *radius, MOST_RADIUS);
+        else if (worst_excess(run, &run->at) <= 0)
             break;
+        answer = try_step(run, *radius, LEAST_GAIN, &share);
+        if (answer == GN_STOP)
+            return answer;
+        if (share < POOR)
+            *radius /= GROWTH;
     }
-    if (first > GOOD)
-        *radius = fmin(GROWTH * *radius, MOST_RADIUS);
-    return answer == GN_STOP ? answer : GN_VALUED;
+    return GN_VALUED;
 }
 
 static bool search(struct run *run)
