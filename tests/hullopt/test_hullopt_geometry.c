@@ -2,6 +2,7 @@
  * shipped Wigley hull: V = 4/9 L B T. And which designs the constraints allow. */
 #include "check.h"
 #include "core/constraints.h"
+#include "core/objective.h"
 #include "core/problem.h"
 #include "shape_yaml.h"
 
@@ -198,13 +199,56 @@ static void test_worst_of_models(void)
     e[1].cw_model[1] = 3.6;
     CU_ASSERT_EQUAL(outcome_bounds(&several, lower, upper), 3);
     for (int i = 0; i < 3; i++)
-        e[i].objective = outcome_objective(&several, &e[i], &e[0]);
+        e[i].objective = objective_of(&several, 1, &e[i], &e[0]);
     CU_ASSERT_EQUAL(e[0].objective, 2);
     CHECK_CLOSE(e[1].objective, 1.8, 1e-15);
     CHECK_CLOSE(e[2].objective, 1.2, 1e-15);
     CU_ASSERT_PTR_EQUAL(outcome_best(&several, 3, e), &e[2]);
     e[2].cw_speed[2] = 1.01;
     CU_ASSERT_PTR_EQUAL(outcome_best(&several, 3, e), &e[1]);
+}
+
+/* Resistances by hand: L 4 m, g 10 m/s^2, water of 1000 kg/m^3 and 1e-6 m^2/s. At Fr 0.5 U^2 is 10
+ * and at 0.25 2.5 m^2/s^2; ITTC-57 gives C_f = 0.075/(log10 Re - 2)^2. */
+static void test_quantities(void)
+{
+    struct config c = {.confirm = NAN,
+                       .solver = {.froude = 0.5, .gravity = 10, .density = 1000},
+                       .viscosity = 1e-6,
+                       .form_factor = 0.2,
+                       .verify_froudes = 1,
+                       .verify_froude = {0.25}};
+    const struct evaluation e[2] = {
+        {.cw = 2e-3, .wetted_area = 3, .speeds = 1, .cw_speed = {1e-3}},
+        {.id = 1, .cw = 1e-3, .wetted_area = 3.3, .speeds = 1, .cw_speed = {0.5e-3}}};
+    double cf[2], wave[2], total[2], slow[2];
+    char text[40];
+    for (int j = 0; j < 2; j++) {
+        double speed = sqrt(j ? 2.5 : 10), order = log10(4 * speed / 1e-6) - 2;
+        cf[j] = 0.075 / (order * order);
+    }
+    for (int i = 0; i < 2; i++) {
+        wave[i] = 5000 * e[i].wetted_area * e[i].cw;
+        total[i] = 5000 * e[i].wetted_area * (e[i].cw + 1.2 * cf[0]);
+        slow[i] = 1250 * e[i].wetted_area * (e[i].cw_speed[0] + 1.2 * cf[1]);
+        CHECK_RELATIVE(objective_total_resistance(&c, 4, &e[i]), total[i], 1e-12);
+    }
+    CHECK_RELATIVE(objective_of(&c, 4, &e[1], &e[0]), 1e-3, 1e-12);
+    c.quantity = QUANTITY_WAVE;
+    CHECK_RELATIVE(objective_of(&c, 4, &e[1], &e[0]), 2e-3 * wave[1] / wave[0], 1e-12);
+    c.quantity = QUANTITY_TOTAL;
+    CHECK_RELATIVE(objective_of(&c, 4, &e[1], &e[0]), 2e-3 * total[1] / total[0], 1e-12);
+    c.weights = 2;
+    c.weight[0] = 1;
+    c.weight[1] = 3;
+    double ratio = (total[1] + 3 * slow[1]) / (total[0] + 3 * slow[0]);
+    CHECK_RELATIVE(objective_of(&c, 4, &e[1], &e[0]), 2e-3 * ratio, 1e-12);
+    objective_print(&c, 4, 2e-3 * ratio, &e[0], text, sizeof text);
+    CU_ASSERT_STRING_EQUAL(strtok(text, " "), "weighted");
+    CU_ASSERT_STRING_EQUAL(strtok(NULL, " "), "R_t");
+    CHECK_RELATIVE(atof(strtok(NULL, " ")), total[1] + 3 * slow[1], 1e-3);
+    c.viscosity = 1; /* no correlation line at Re 13 */
+    CU_ASSERT_TRUE(isnan(objective_of(&c, 4, &e[1], &e[0])));
 }
 
 static size_t violations_of(const struct config *asked, const char *name,
@@ -230,7 +274,7 @@ static void test_confirmed_gain(void)
     outcome_ratios(&asked, &e[1], &e[0], ratio);
     CHECK_CLOSE(ratio[0] - upper[0], -0.25, 1e-15); /* 1 - 0.5 asks for 0.75 */
     CHECK_CLOSE(ratio[1] - upper[1], 0.15, 1e-15);  /* it has 0.9 */
-    CU_ASSERT_EQUAL(outcome_objective(&asked, &e[1], &e[0]), 1);
+    CU_ASSERT_EQUAL(objective_of(&asked, 1, &e[1], &e[0]), 1);
     CU_ASSERT_FALSE(outcome_allowed(&asked, &e[1], &e[0]));
     CU_ASSERT_EQUAL(violations_of(&asked, "confirm", e), 1);
     asked.confirm = 0.2;
@@ -246,6 +290,7 @@ static const struct check_case cases[] = {
     {"hulls without their files", test_restored},
     {"designs that can be the best", test_allowed_designs},
     {"the worst of several models", test_worst_of_models},
+    {"resistances as the objective", test_quantities},
     {"a share of the gain confirmed", test_confirmed_gain},
 };
 

@@ -13,6 +13,10 @@ static const struct setting_word SURFACE[] = {{"by rule", 0}, {NULL, 0}};
 static const struct setting_word AUTO[] = {{"auto", -1}, {NULL, 0}};
 static const struct setting_word AS_IN_FILE[] = {{"as in the hull file", 0}, {NULL, 0}};
 
+static const struct setting_word QUANTITIES[] = {{"wave-coefficient", QUANTITY_CW},
+                                                 {"wave-resistance", QUANTITY_WAVE},
+                                                 {"total-resistance", QUANTITY_TOTAL},
+                                                 {NULL, 0}};
 static const struct setting_word SPACES[] = {{"latent", 0}, {"parameters", 1}, {NULL, 0}};
 
 static const char *formulation(int value)
@@ -109,6 +113,17 @@ static const struct setting ROWS[] = {
         .required = true),
     ROW("flow.gravity", NUMBER, solver.gravity, "m/s^2", SETTING_ABOVE(0)),
     ROW("flow.density", NUMBER, solver.density, "kg/m^3", SETTING_ABOVE(0)),
+    ROW("flow.viscosity", NUMBER, viscosity,
+        "kinematic, m^2/s, for the total resistance by ITTC-57", SETTING_ABOVE(0),
+        .otherwise = "1.1386e-6"),
+    ROW("flow.form_factor", NUMBER, form_factor, "k of C_t = (1 + k) C_f + C_w", SETTING_FROM(0, 2),
+        .otherwise = "0"),
+    ROW("objective.quantity", CHOICE, quantity,
+        "what is lowered: C_w, or the resistance of waves or of the ship, N", .words = QUANTITIES,
+        .otherwise = "wave-coefficient"),
+    ROW("objective.weights", NUMBER, weight,
+        "of its values at flow.froude and at each of verification.froude", SETTING_FROM(0, 1e6),
+        .n_most = 1 + CONFIG_FROUDE_MOST, .count = offsetof(struct config, weights)),
     ROW("solver.formulation", CHOICE, solver.formulation, "what is solved", .choice = formulation),
     ROW("solver.refine", INTEGER, solver.refine, "parts of every knot span", SETTING_FROM(1, 16),
         .otherwise = "1"),
@@ -198,9 +213,28 @@ static void check_places(struct settings_source *source, const struct config *c)
                               c->particular[i][0], c->particular[i][1]);
 }
 
+/* The derivatives of the descent are those of C_w at one speed. */
+static void check_objective(struct settings_source *source, const struct config *c)
+{
+    double sum = 0;
+    for (size_t j = 0; j < c->weights; j++)
+        sum += c->weight[j];
+    if (c->weights && c->weights != 1 + c->verify_froudes)
+        settings_complain(source, "objective.weights",
+                          "has %zu numbers, expected %zu: flow.froude and verification.froude",
+                          c->weights, 1 + c->verify_froudes);
+    else if (c->weights && !(sum > 0))
+        settings_complain(source, "objective.weights", "are all 0");
+    if ((c->weights || c->quantity != QUANTITY_CW) && method_row(c->method)->kind == METHOD_DESCENT)
+        settings_complain(source, c->weights ? "objective.weights" : "objective.quantity",
+                          "is not for %s, which lowers C_w at flow.froude",
+                          method_row(c->method)->name);
+}
+
 static void check(struct settings_source *source, void *target)
 {
     const struct config *c = target;
+    check_objective(source, c);
     for (size_t i = 0; i < c->models; i++)
         if (c->model[i] == IGABEM_FORMULATION_AUTO || c->model[i] == c->solver.formulation)
             settings_complain(source, "search.models", "is %s, expected others than %s",

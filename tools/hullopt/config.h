@@ -13,6 +13,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* What is lowered: objective.quantity. */
+enum quantity { QUANTITY_CW, QUANTITY_WAVE, QUANTITY_TOTAL };
+
 enum { CONFIG_FROUDE_MOST = 8, CONFIG_MODELS_MOST = 4, CONFIG_PLACES_MOST = 40, PARTICULARS = 19 };
 
 enum { CONFIG_DESIGN_FORECAST = BAYESOPT_DESIGN_STLBO + 1 };
@@ -36,6 +39,10 @@ struct config {
     double kg;                           /* centre of gravity above the deepest point, m */
     size_t stations, hard_points, boxes; /* numbers below: x; x, z; x, x, y, z, z */
     double station[CONFIG_PLACES_MOST], hard_point[CONFIG_PLACES_MOST], box[CONFIG_PLACES_MOST];
+    int quantity;                  /* one of enum quantity */
+    double viscosity, form_factor; /* of its friction: m^2/s, k */
+    size_t weights; /* of flow.froude and each of verify_froude; 0: flow.froude alone */
+    double weight[1 + CONFIG_FROUDE_MOST];
     int space;     /* of the variables: 0 latent, 1 the parameters themselves */
     int method;    /* of method_row() */
     size_t models; /* formulations besides the solver's: the worst of all is the objective */

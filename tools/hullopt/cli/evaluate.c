@@ -1,6 +1,7 @@
 #include "cli.h"
 #include "cli/commands.h"
 #include "core/constraints.h"
+#include "core/objective.h"
 #include "json_result.h"
 #include "shape_yaml.h"
 
@@ -106,6 +107,12 @@ static json_t *list(size_t n, const double *values)
     return array;
 }
 
+static double objective_ratio(const struct asked *a)
+{
+    return objective_of(&a->config, problem_length(&a->problem), &a->design, &a->parent) /
+           a->parent.cw;
+}
+
 static json_t *result(const struct asked *a)
 {
     const struct evaluation *e = &a->design;
@@ -114,11 +121,12 @@ static json_t *result(const struct asked *a)
     json_result_set(o, "failed", json_boolean(e->failed));
     json_result_set(o, "reason", json_string(e->reason));
     json_result_set(o, "allowed", json_boolean(allowed));
-    put(o, "objective", outcome_objective(&a->config, e, &a->parent) / a->parent.cw);
+    put(o, "objective", objective_ratio(a));
     put(o, "cw", e->cw);
     put(o, "cw_parent", a->parent.cw);
     put(o, "cw_pressure", e->cw_pressure);
     put(o, "rw", e->rw);
+    put(o, "rt", objective_total_resistance(&a->config, problem_length(&a->problem), e));
     put(o, "volume", e->volume);
     put(o, "wetted_area", e->wetted_area);
     json_result_set(o, "cw_models", list(e->failed ? 0 : e->models, e->cw_model));
@@ -131,7 +139,7 @@ static bool print_text(const struct asked *a)
 {
     const struct evaluation *e = &a->design;
     printf("%-22s%.4e, %+.2f %%\n%-22s%.5f\n", "C_w", e->cw, 100 * (e->cw / a->parent.cw - 1),
-           "objective, ratio", outcome_objective(&a->config, e, &a->parent) / a->parent.cw);
+           "objective, ratio", objective_ratio(a));
     for (size_t k = 0; k < constraints_count(); k++) {
         struct constraint_figures f;
         constraints_figures(&a->config, k, &a->parent, e, &f);

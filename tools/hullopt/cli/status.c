@@ -2,6 +2,7 @@
 #include "cli/commands.h"
 #include "cli/folder.h"
 #include "core/constraints.h"
+#include "core/objective.h"
 #include "core/record.h"
 #include "core/search.h"
 #include "json_result.h"
@@ -102,9 +103,13 @@ static bool print_text(const struct status *s)
         printf(" (process %ld)", s->holder);
     printf("%s%s\n%-16s%zu of %zu, %zu failed\n", s->stop ? ": " : "", s->stop ? s->stop : "",
            "designs", s->n, s->budget, s->failed);
-    if (s->best)
-        printf("%-16sC_w %.4e, %+.1f %% from the parent's\n", "best", s->best->objective,
+    char best[40];
+    if (s->best) {
+        objective_print(&s->config, s->origin.length, s->best->objective, s->list, best,
+                        sizeof best);
+        printf("%-16s%s, %+.1f %% from the parent's\n", "best", best,
                100 * (s->best->objective / s->list[0].objective - 1));
+    }
     printf("%-16s%zu rows\n%-16s%.0f s in %zu sessions\n", "verification", s->rows, "time",
            s->seconds, s->sessions);
     if (!isnan(s->left))

@@ -335,15 +335,6 @@ bool outcome_allowed(const struct config *config, const struct evaluation *e,
     return true;
 }
 
-double outcome_objective(const struct config *config, const struct evaluation *e,
-                         const struct evaluation *parent)
-{
-    double worst = e->cw / parent->cw;
-    for (size_t i = 0; i < e->models && isnan(config->confirm); i++)
-        worst = fmax(worst, e->cw_model[i] / parent->cw_model[i]);
-    return worst * parent->cw;
-}
-
 const struct evaluation *outcome_best(const struct config *config, size_t n,
                                       const struct evaluation *list)
 {

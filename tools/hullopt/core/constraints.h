@@ -31,9 +31,6 @@ void outcome_ratios(const struct config *config, const struct evaluation *e,
 /* Whether a design can be the best: evaluated, and within its bounds. The parent always is. */
 bool outcome_allowed(const struct config *config, const struct evaluation *e,
                      const struct evaluation *parent);
-/* The objective of a design by its figures and those of the parent. */
-double outcome_objective(const struct config *config, const struct evaluation *e,
-                         const struct evaluation *parent);
 /* The best of a list whose first is the parent; NULL when that failed too. */
 const struct evaluation *outcome_best(const struct config *config, size_t n,
                                       const struct evaluation *list);

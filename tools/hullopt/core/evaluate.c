@@ -120,7 +120,8 @@ size_t evaluate_settings(const struct problem *problem, igabem_options settings[
 {
     const struct config *config = problem->config;
     size_t n = by_all_models(config, &problem->solver, settings);
-    for (size_t i = 0; i < problem->speeds && !isnan(config->speeds); i++)
+    bool speeds = config->weights || !isnan(config->speeds);
+    for (size_t i = 0; i < problem->speeds && speeds; i++)
         n += by_all_models(config, &problem->speed[i], settings + n);
     return n;
 }

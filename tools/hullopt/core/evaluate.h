@@ -19,8 +19,7 @@ struct evaluation {
     const double *u;   /* latent point, borrowed */
     bool failed;
     char reason[REASON_SIZE]; /* of the failure, "skin: ..."; else "" */
-    double objective; /* what the search lowers, told from the figures by search_step(): cw, or what
-                         it would be if it had the worst of the ratios of all models */
+    double objective;         /* what the search lowers: objective_of() */
     double cw, cw_pressure, rw, share_beyond_cutoff, condition;
     size_t models; /* of cw_model: by the other formulations of search.models */
     double cw_model[CONFIG_MODELS_MOST];
@@ -41,7 +40,7 @@ void evaluation_start(uint64_t id, const char *phase, const double *u,
                       struct evaluation *evaluation);
 
 /* Settings of the solver that a design is valued with, in the order of the figures above: cw,
- * cw_model, and cw_speed when the configuration bounds C_w there. Returns how many. */
+ * cw_model, and cw_speed when the configuration bounds C_w there or weighs it. Returns how many. */
 size_t evaluate_settings(const struct problem *problem, igabem_options settings[SETTINGS_MOST]);
 
 /* Looks at the solutions, one for each of these settings, before they are freed; false, with a

@@ -4,6 +4,7 @@
 #include "core/constraints.h"
 #include "core/conventional.h"
 #include "core/descent.h"
+#include "core/objective.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -52,7 +53,7 @@ bool search_open(struct problem *problem, const char *path, struct record *recor
 
 static bool tell(struct search *s, struct evaluation *e)
 {
-    e->objective = outcome_objective(s->problem->config, e, &s->parent);
+    e->objective = objective_of(s->problem->config, problem_length(s->problem), e, &s->parent);
     double ratio[OUTCOME_MOST];
     outcome_ratios(s->problem->config, e, &s->parent, ratio);
     return record_tell(s->record, e, ratio);
@@ -86,9 +87,12 @@ static bool begin(struct search *s)
     core_show(s->watch, SEARCH, 0, "the original");
     evaluation_start(0, "parent", zero, &s->parent);
     evaluate_parent(s->problem, &s->parent, NULL, NULL);
-    bool ok = s->parent.failed ? core_fail("%s: the parent cannot be evaluated (%s)", config->hull,
-                                           s->parent.reason)
-                               : tell(s, &s->parent);
+    bool ok = true;
+    if (s->parent.failed)
+        ok = core_fail("%s: the parent cannot be evaluated (%s)", config->hull, s->parent.reason);
+    else if (isnan(objective_of(config, problem_length(s->problem), &s->parent, &s->parent)))
+        ok = core_fail("%s: objective.quantity: no ITTC-57 friction at Re <= 1000", config->hull);
+    ok = ok && tell(s, &s->parent);
     s->best = s->parent.cw;
     s->done = 1;
     s->parent.u = NULL;
@@ -98,10 +102,12 @@ static bool begin(struct search *s)
 
 void search_show(const struct search *s, const char *what)
 {
-    char detail[200];
+    char detail[200], best[40];
     size_t all = search_budget(s->problem->config);
-    snprintf(detail, sizeof detail, "%zu of %zu, %zu failed, best C_w %.4e (%+.1f %%)%s%s", s->done,
-             all, s->failed, s->best, 100 * (s->best / s->parent.cw - 1), what ? ", " : "",
+    objective_print(s->problem->config, problem_length(s->problem), s->best, &s->parent, best,
+                    sizeof best);
+    snprintf(detail, sizeof detail, "%zu of %zu, %zu failed, best %s (%+.1f %%)%s%s", s->done, all,
+             s->failed, best, 100 * (s->best / s->parent.cw - 1), what ? ", " : "",
              what ? what : "");
     core_show(s->watch, SEARCH, (double)s->done / (double)all, detail);
 }

@@ -64,6 +64,12 @@ static void cards(FILE *out, const struct results *r)
     card(out, value, "wave resistance coefficient");
     snprintf(value, sizeof value, "%.3f → %.3f", 1e3 * r->baseline->cw, 1e3 * r->best->cw);
     card(out, value, "10³ Cw, original → optimum");
+    double total[2];
+    results_total_resistance(r, total);
+    if (isfinite(total[0])) {
+        snprintf(value, sizeof value, "%+.1f %%", 100 * (total[1] / total[0] - 1));
+        card(out, value, "total resistance by ITTC-57");
+    }
     snprintf(value, sizeof value, "%+.2f %%", 100 * (r->best->volume_ratio - 1));
     card(out, value, "displacement");
     snprintf(value, sizeof value, "%zu of %zu", galv_model_modes(r->problem->model),

@@ -57,8 +57,8 @@ static bool write_patch(const struct results *r, const nurbs_surface *surface, c
     return ok;
 }
 
-static bool write_hulls(const struct results *r, const char *json, const char *iges,
-                        const char *wetted)
+/* The hull in three formats, then its wetted part. */
+static bool write_hulls(const struct results *r, char *const path[4])
 {
     nurbs_surface *hull = NULL;
     if (nurbs_surface_simplify(nurbs_patches_get(nurbs_hull_full(results_hull(r, 1)), 0),
@@ -66,10 +66,11 @@ static bool write_hulls(const struct results *r, const char *json, const char *i
                                NURBS_SIMPLIFY_KEEP_EDGES | NURBS_SIMPLIFY_THRIFTY, &hull,
                                NULL) != NURBS_OK)
         return cli_refuse("best.json: %s", nurbs_last_error());
-    bool ok = write_patch(r, hull, "optimised hull up to the deck", json) &&
-              write_patch(r, hull, "optimised hull up to the deck", iges) &&
-              write_patch(r, nurbs_patches_get(nurbs_hull_light(results_hull(r, 1)), 0),
-                          "wetted part of the optimised hull", wetted);
+    bool ok = true;
+    for (size_t i = 0; i < 3; i++)
+        ok = ok && write_patch(r, hull, "optimised hull up to the deck", path[i]);
+    ok = ok && write_patch(r, nurbs_patches_get(nurbs_hull_light(results_hull(r, 1)), 0),
+                           "wetted part of the optimised hull", path[3]);
     nurbs_surface_free(hull);
     return ok;
 }
@@ -90,6 +91,10 @@ static bool print_figures(const struct results *r, const char *folder)
            100 * galv_model_retained(r->problem->model));
     printf("%-22s%.4e\n%-22s%.4e\n%-22s%.1f %%\n", "C_w before", r->baseline->cw, "C_w after",
            r->best->cw, "reduction", 100 * (1 - r->best->cw / r->baseline->cw));
+    double total[2];
+    results_total_resistance(r, total);
+    printf("%-22s%.4g N, %+.1f %% by ITTC-57, form factor %g\n", "R_t", total[1],
+           100 * (total[1] / total[0] - 1), r->problem->config->form_factor);
     for (size_t k = 0; k < constraints_count(); k++) {
         struct constraint_figures f;
         constraints_figures(r->problem->config, k, r->baseline, r->best, &f);
@@ -115,15 +120,16 @@ static bool print_summary(const json_t *summary)
 
 static bool write_files(const struct results *r, const char *folder, const json_t *summary)
 {
-    static const char *const names[] = {"summary.json", "best.json", "best.igs", "best_wetted.json",
-                                        "report.html"};
-    char *path[5] = {0};
+    static const char *const names[] = {"summary.json", "best.json",        "best.igs",
+                                        "best.step",    "best_wetted.json", "report.html"};
+    enum { FILES = sizeof names / sizeof *names };
+    char *path[FILES] = {0};
     bool ok = true;
-    for (size_t i = 0; i < 5; i++)
+    for (size_t i = 0; i < FILES; i++)
         ok = (path[i] = folder_join(folder, names[i])) != NULL && ok;
-    ok = (ok || cli_refuse("out of memory")) && write_hulls(r, path[1], path[2], path[3]) &&
-         write_report(r, path[4]) && write_summary(summary, path[0]);
-    for (size_t i = 0; i < 5; i++)
+    ok = (ok || cli_refuse("out of memory")) && write_hulls(r, path + 1) &&
+         write_report(r, path[5]) && write_summary(summary, path[0]);
+    for (size_t i = 0; i < FILES; i++)
         free(path[i]);
     return ok;
 }

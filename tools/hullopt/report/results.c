@@ -1,6 +1,7 @@
 #include "report/results.h"
 
 #include "core/constraints.h"
+#include "core/objective.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -66,6 +67,13 @@ void results_free(struct results *r)
     free(r->parameters);
     free(r->stop);
     *r = (struct results){0};
+}
+
+void results_total_resistance(const struct results *r, double total[2])
+{
+    const struct evaluation *e[2] = {r->baseline, r->best};
+    for (int k = 0; k < 2; k++)
+        total[k] = objective_total_resistance(r->problem->config, problem_length(r->problem), e[k]);
 }
 
 struct results_times results_times(const struct results *r)

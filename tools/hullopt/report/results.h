@@ -32,6 +32,9 @@ void results_free(struct results *results);
 /* Hull of the parent (0) and of the best (1). */
 const nurbs_hull *results_hull(const struct results *results, int which);
 
+/* Total resistance of the parent and of the best, N: objective_total_resistance(). */
+void results_total_resistance(const struct results *results, double total[2]);
+
 /* Mean seconds of one evaluation: whole, geometry, solve, proposal. Failed ones count. */
 struct results_times {
     double evaluation, geometry, solve, propose;

@@ -214,6 +214,10 @@ json_t *summary_make(const struct results *r)
     json_result_set(o, "baseline", evaluation(r, r->baseline));
     json_result_set(o, "best", best);
     put(o, "reduction_percent", 100 * (1 - r->best->cw / r->baseline->cw));
+    double total[2];
+    results_total_resistance(r, total);
+    put(o, "total_resistance_before", total[0]);
+    put(o, "total_resistance_after", total[1]);
     put_count(o, "evaluations", r->n - 1); /* without the parent */
     put_count(o, "initial_samples", r->problem->config->initial);
     put_count(o, "failed_designs", r->failed);

@@ -36,6 +36,16 @@ static void constraint_row(FILE *out, const struct results *r, size_t k)
                              : ", violated");
 }
 
+static void total_row(FILE *out, const char *label, const char *unit, const char *format,
+                      double before, double after)
+{
+    fprintf(out, "<tr class=\"total\"><td>%s</td><td>%s</td>", label, unit);
+    cell(out, format, before);
+    cell(out, format, after);
+    cell(out, "%+.1f %%", 100 * (after / before - 1));
+    fputs("<td></td></tr>\n", out);
+}
+
 void report_particulars(FILE *out, const struct results *r)
 {
     struct particular list[PARTICULARS_MOST];
@@ -44,12 +54,15 @@ void report_particulars(FILE *out, const struct results *r)
           "<th class=\"n\">original</th><th class=\"n\">optimum</th><th class=\"n\">change</th>"
           "<th>limit</th></tr></thead><tbody>\n",
           out);
-    fputs("<tr class=\"total\"><td>Wave resistance coefficient, Kochin function</td><td>10⁻³</td>",
-          out);
-    cell(out, "%.4f", 1e3 * r->baseline->cw);
-    cell(out, "%.4f", 1e3 * r->best->cw);
-    cell(out, "%+.1f %%", 100 * (r->best->cw / r->baseline->cw - 1));
-    fputs("<td></td></tr>\n", out);
+    double total[2];
+    char label[80];
+    results_total_resistance(r, total);
+    total_row(out, "Wave resistance coefficient, Kochin function", "10⁻³", "%.4f",
+              1e3 * r->baseline->cw, 1e3 * r->best->cw);
+    total_row(out, "Wave resistance", "N", "%.2f", r->baseline->rw, r->best->rw);
+    snprintf(label, sizeof label, "Total resistance, ITTC-57, form factor %g",
+             r->problem->config->form_factor);
+    total_row(out, label, "N", "%.2f", total[0], total[1]);
     for (size_t k = 0; k < constraints_count(); k++)
         constraint_row(out, r, k);
     for (size_t i = 0; i < n; i++) {

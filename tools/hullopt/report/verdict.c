@@ -90,7 +90,7 @@ static void state_models(struct verdict *v)
 static void state(struct verdict *v)
 {
     if (!(v->claimed > NO_CHANGE)) {
-        say(v, "The search found nothing better than the parent.");
+        say(v, "The search found no hull of less wave resistance than the parent.");
         return;
     }
     say(v, "The objective sees C_w fall by %.1f %%. ", 100 * v->claimed);
