@@ -20,6 +20,10 @@ extern const size_t n_test_functions;
 extern const struct test_function held_out_functions[];
 extern const size_t n_held_out_functions;
 
+/* Rugged or narrow ones. */
+extern const struct test_function stated_functions[];
+extern const size_t n_stated_functions;
+
 /* Levy's function over a box from `low` to low + 20 in every direction. */
 double levy_from(double low, size_t d, const double *u);
 
