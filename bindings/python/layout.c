@@ -128,6 +128,13 @@ static void print_galv(void)
     N(galv_options, workspace);
     U64(galv_options, seed);
     END;
+    BEGIN(galv_data);
+    N(galv_data, count);
+    N(galv_data, coordinates);
+    N(galv_data, npoints);
+    P(galv_data, values);
+    P(galv_data, xyz);
+    END;
     BEGIN(galv_box);
     field("origin", "c_double * 3", offsetof(galv_box, origin));
     field("length", "c_double * 3", offsetof(galv_box, length));

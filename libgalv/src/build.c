@@ -310,6 +310,17 @@ static galv_status data_rows(galv_source *head, size_t first, size_t count, doub
     return GALV_OK;
 }
 
+/* Whether the rows can be displacements of the points. */
+static galv_status check_points_of(const galv_data *data)
+{
+    galv_status status = galv_points_check(data->npoints, data->xyz);
+    if (!status && (data->coordinates % 3 || data->coordinates / 3 != data->npoints))
+        status =
+            galv_fail(GALV_ERROR_ARGUMENT, "%zu coordinates, expected 3 for each of %zu points",
+                      data->coordinates, data->npoints);
+    return status;
+}
+
 galv_status galv_build_data(const galv_data *data, const galv_options *options, galv_model **model)
 {
     galv_options defaults;
@@ -323,11 +334,18 @@ galv_status galv_build_data(const galv_data *data, const galv_options *options, 
     galv_status status = galv_options_check(options);
     if (!status && data->weights)
         status = check_weights("coordinate", data->coordinates, data->weights);
+    if (!status && (data->npoints || data->xyz))
+        status = check_points_of(data);
+    double *spread = NULL;
+    if (!status && data->npoints && !data->weights)
+        status = galv_weights_spread(data->npoints, options->weights, NULL, &spread);
     if (status)
         return status;
     size_t *index = malloc(data->coordinates * sizeof *index);
-    if (!index)
+    if (!index) {
+        free(spread);
         return galv_fail(GALV_ERROR_MEMORY, "%zu coordinates", data->coordinates);
+    }
     for (size_t i = 0; i < data->coordinates; i++)
         index[i] = i;
     data_source source = {.head = {.samples = data->count,
@@ -337,9 +355,14 @@ galv_status galv_build_data(const galv_data *data, const galv_options *options, 
                                    .values = data->values,
                                    .rows = data_rows},
                           .data = data};
-    galv_job job = {.source = &source.head, .weights = data->weights, .options = options};
+    galv_job job = {.source = &source.head,
+                    .points = data->npoints,
+                    .xyz = data->xyz,
+                    .weights = spread ? spread : data->weights,
+                    .options = options};
     job.block = galv_block_rows(data->count, data->coordinates, options->workspace);
     status = run(&job, model);
     free(index);
+    free(spread);
     return status;
 }

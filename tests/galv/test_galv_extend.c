@@ -299,6 +299,54 @@ static void test_plain_data(void)
     free(values);
 }
 
+/* Displacements of points that no shape gave: the model moves its points and takes their weights.
+ */
+static void test_snapshots(void)
+{
+    enum { COUNT = 30, PLACES = 8, LENGTH = 3 * PLACES };
+    static double rows[COUNT * LENGTH], xyz[LENGTH], weights[PLACES], each[LENGTH];
+    for (size_t r = 0; r < COUNT; r++)
+        for (size_t i = 0; i < LENGTH; i++)
+            rows[r * LENGTH + i] = sin((double)(r * (i + 2))) / (double)(2 + i);
+    for (size_t i = 0; i < LENGTH; i++) {
+        xyz[i] = cos((double)i);
+        weights[i / 3] = each[i] = 1 + (double)(i / 3);
+    }
+    galv_options options;
+    galv_options_init(&options);
+    options.variance = 1;
+    options.weights = weights;
+    galv_data data = {
+        .count = COUNT, .coordinates = LENGTH, .values = rows, .npoints = PLACES, .xyz = xyz};
+    galv_model *model = NULL, *plain = NULL;
+    CU_ASSERT_EQUAL_FATAL(galv_build_data(&data, &options, &model), GALV_OK);
+    galv_data bare = {.count = COUNT, .coordinates = LENGTH, .values = rows, .weights = each};
+    CU_ASSERT_EQUAL_FATAL(galv_build_data(&bare, &options, &plain), GALV_OK);
+    CU_ASSERT_EQUAL(galv_model_trace(model), galv_model_trace(plain));
+    CU_ASSERT_EQUAL(galv_model_points(model), PLACES);
+    CU_ASSERT_EQUAL(galv_model_parameters(model), 0);
+    /* All modes are kept, so each snapshot comes back whole. */
+    double moved[LENGTH];
+    size_t m = galv_model_modes(model);
+    for (size_t r = 0; r < COUNT; r++) {
+        CU_ASSERT_EQUAL_FATAL(galv_displace(model, galv_model_latent(model) + r * m, moved),
+                              GALV_OK);
+        for (size_t i = 0; i < LENGTH; i++)
+            CHECK_CLOSE(moved[i], xyz[i] + rows[r * LENGTH + i], 1e-12);
+    }
+    CU_ASSERT_EQUAL(galv_displace(plain, galv_model_latent(plain), moved), GALV_ERROR_ARGUMENT);
+    galv_model_free(model);
+    galv_model_free(plain);
+    data.npoints = PLACES - 1;
+    CU_ASSERT_EQUAL(galv_build_data(&data, &options, &model), GALV_ERROR_ARGUMENT);
+    data.npoints = PLACES;
+    data.xyz = NULL;
+    CU_ASSERT_EQUAL(galv_build_data(&data, &options, &model), GALV_ERROR_ARGUMENT);
+    data.xyz = xyz;
+    rows[5] = NAN;
+    CU_ASSERT_EQUAL(galv_build_data(&data, &options, &model), GALV_ERROR_NUMERIC);
+}
+
 /* Shares of the samples, counted. */
 static void test_bounds_cover_their_share(void)
 {
@@ -347,6 +395,7 @@ static const struct check_case cases[] = {
     {"restoring refuses by name", test_restore_refuses_by_name},
     {"the displaced grid", test_displaced_grid},
     {"plain data", test_plain_data},
+    {"snapshots of points", test_snapshots},
     {"bounds cover their share", test_bounds_cover_their_share},
 };
 

@@ -2,7 +2,10 @@
 #include "check.h"
 #include "run_tool.h"
 
+#include <math.h>
 #include <string.h>
+
+static const double PI = 3.14159265358979323846;
 
 enum { SECTIONS = 13, GIRTH = 7 };
 
@@ -475,6 +478,102 @@ static void test_bad_models_are_refused(void)
     scratch_remove_all();
 }
 
+/* The grid of write_inputs() with every row of a table of moves added, as a table of variants. */
+static void write_variants(const char *name, size_t count, double moves(size_t r, size_t i))
+{
+    static double xyz[SECTIONS * GIRTH * 3];
+    char line[128];
+    size_t n = 0;
+    FILE *hull = fopen(scratch("hull.csv"), "r");
+    while (fgets(line, sizeof line, hull))
+        if (sscanf(line, "%*d,%*d,%lf,%lf,%lf", &xyz[n], &xyz[n + 1], &xyz[n + 2]) == 3)
+            n += 3;
+    fclose(hull);
+    CU_ASSERT_EQUAL_FATAL(n, SECTIONS * GIRTH * 3);
+    FILE *stream = fopen(scratch(name), "w");
+    for (size_t r = 0; r < count; r++)
+        for (size_t i = 0; i < n; i++)
+            fprintf(stream, "%.17g%c", xyz[i] + moves(r, i), i + 1 < n ? ',' : '\n');
+    fclose(stream);
+}
+
+/* Two orthogonal moves whose amplitudes over 24 variants are a cosine and a sine: of point p by
+ * sin(pi p / P) and sin(2 pi p / P) along y. sum sin^2 = P/2, mean cos^2 = 1/2. */
+static double two_moves(size_t r, size_t i)
+{
+    double s = PI * (double)(i / 3) / (SECTIONS * GIRTH), a = 2 * PI * (double)r / 24;
+    return i % 3 == 1 ? 0.03 * cos(a) * sin(s) + 0.01 * sin(a) * sin(2 * s) : 0;
+}
+
+static void test_snapshots(void)
+{
+    write_inputs();
+    write_variants("variants.csv", 24, two_moves);
+    json_t *root = run_json("reduce --snapshots variants.csv --hull hull.csv -o model.h5 "
+                            "--variance 0.99 --json");
+    json_t *values = json_object_get(root, "eigenvalues");
+    CU_ASSERT_EQUAL(number(root, "samples"), 24);
+    CU_ASSERT_EQUAL(number(root, "parameters"), 0);
+    CU_ASSERT_EQUAL(number(root, "modes"), 2);
+    double unit = SECTIONS * GIRTH / 2.0 / 2;
+    CHECK_RELATIVE(json_number_value(json_array_get(values, 0)), 9e-4 * unit, 1e-12);
+    CHECK_RELATIVE(json_number_value(json_array_get(values, 1)), 1e-4 * unit, 1e-12);
+    json_decref(root);
+    /* Their mean is the parent itself; --grid says where its sections are. */
+    json_t *mean = run_json("reduce --snapshots variants.csv --grid 13x7 --weights area --json");
+    CU_ASSERT_TRUE(number(mean, "trace") > 0);
+    json_decref(mean);
+    mean = run_json("reduce --snapshots variants.csv -o loose.h5 --json");
+    CHECK_RELATIVE(number(mean, "trace"), 1e-3 * unit, 1e-12);
+    json_decref(mean);
+    json_t *info = run_json("info model.h5 --json");
+    CU_ASSERT_STRING_EQUAL(json_string_value(json_object_get(info, "shape")), "snapshots");
+    json_decref(info);
+    expect("info loose.h5", 0, NULL);
+    expect("plot loose.h5 -o loose.svg", 0, NULL);
+    expect("plot model.h5 -o snapshots.svg", 0, NULL);
+    expect("animate model.h5 -o snapshots.svg", 0, NULL);
+    /* There and back. */
+    expect("reconstruct model.h5 --latent 0.05,-0.02 -o moved.csv", 0, NULL);
+    json_t *again = run_json("project model.h5 --hull moved.csv --json");
+    json_t *u = json_array_get(json_object_get(again, "rows"), 0);
+    CHECK_CLOSE(number(u, "u1"), 0.05, 1e-14);
+    CHECK_CLOSE(number(u, "u2"), -0.02, 1e-14);
+    json_decref(again);
+    /* The vectors of the model as snapshots of their own: orthonormal rows. */
+    json_t *rows = run_json("reduce --snapshots model.h5 --dataset vectors --displacements "
+                            "--hull hull.csv --json");
+    double count = number(rows, "samples");
+    CHECK_RELATIVE(json_number_value(json_array_get(json_object_get(rows, "eigenvalues"), 0)),
+                   1 / count, 1e-12);
+    CHECK_RELATIVE(number(rows, "trace"), 1.0, 1e-12);
+    json_decref(rows);
+}
+
+static void test_snapshots_refused(void)
+{
+    write_inputs();
+    write_variants("variants.csv", 24, two_moves);
+    expect("reduce --snapshots variants.csv --hull hull.csv -o model.h5", 0, NULL);
+    expect("backmap model.h5 --latent 0.01", 1, "it has no parameters");
+    expect("extend model.h5 --random 9", 1, "it has no parameters");
+    expect("project model.h5 --parameters 0.01", 1, "it has no parameters");
+    expect("reconstruct model.h5 --parameters 0.01", 1, "it has no parameters");
+    expect("reduce --snapshots variants.csv --shape shape.yaml --hull hull.csv", 2, "--shape");
+    expect("reduce --snapshots variants.csv --random 9", 2, "snapshots");
+    expect("reduce --snapshots variants.csv --displacements", 2, "--hull");
+    expect("reduce --shape shape.yaml --random 9", 2, "hull");
+    expect("reduce --snapshots variants.csv --grid 13x8", 1, "expected 13 x 8");
+    expect("reduce --snapshots model.h5", 1, "no dataset 'snapshots'");
+    expect("reduce --snapshots none.h5", 1, "none.h5");
+    scratch_write("odd.csv", "0,0,0,1\n0,0,1,1\n");
+    expect("reduce --snapshots odd.csv", 1, "2 rows of 4 numbers");
+    scratch_write("other.csv", "0,0,0\n0,0,1\n");
+    expect("reduce --snapshots other.csv --hull hull.csv", 1, "1 points in a row");
+    scratch_write("same.csv", "0,0,1\n0,0,1\n");
+    expect("reduce --snapshots same.csv", 1, "zero");
+}
+
 static const struct check_case cases[] = {
     {"reduce prints JSON that adds up", test_reduce_prints_json},
     {"reduce from a file of samples", test_reduce_from_samples},
@@ -489,6 +588,8 @@ static const struct check_case cases[] = {
     {"usage", test_usage},
     {"bad shapes name the field", test_bad_shapes_name_the_field},
     {"all triples of half-waves", test_orders},
+    {"variants of anybody", test_snapshots},
+    {"variants refused", test_snapshots_refused},
     {"bad models are refused", test_bad_models_are_refused},
 };
 

@@ -200,6 +200,24 @@ class Latent(unittest.TestCase):
             model.displace([1, 2, 3])
 
 
+    def test_snapshots_against_numpy(self):
+        random = np.random.default_rng(3)
+        points = random.random((4, 5, 3))
+        variants = points + 0.1 * random.standard_normal((40, 4, 5, 3))
+        moves = (variants - points).reshape(40, -1)
+        model = galv.Model.snapshots(variants, points, variance=1)
+        values = np.sort(np.linalg.eigvalsh(moves.T @ moves / 40))[::-1]
+        np.testing.assert_allclose(model.eigenvalues[:40], values[:40], rtol=1e-9)
+        np.testing.assert_allclose(model.displace(model.latent[7]), variants[7], atol=1e-12)
+        moves = (variants - variants.mean(axis=0)).reshape(40, -1)
+        centred = galv.Model.snapshots(variants)
+        np.testing.assert_allclose(centred.trace, (moves ** 2).sum() / 40, rtol=1e-12)
+        with self.assertRaises(ValueError):
+            model.backmap(model.latent[0])
+        with self.assertRaises(ValueError):
+            galv.Model.snapshots(variants, points[:3])
+
+
 class SearchTest(unittest.TestCase):
     @staticmethod
     def bowl(x):

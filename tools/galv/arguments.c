@@ -25,6 +25,11 @@ void arguments_free(struct arguments *a)
     settings_free(a->table, a);
 }
 
+bool arguments_have_parameters(const struct arguments *a)
+{
+    return a->file.shape.n || cli_refuse("%s: made from snapshots, it has no parameters", a->model);
+}
+
 void arguments_either(struct settings_source *source, const char *one, bool has_one,
                       const char *other, bool has_other)
 {

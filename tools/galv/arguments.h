@@ -8,7 +8,7 @@
 
 struct arguments {
     char *model;
-    char *hull, *shape, *samples, *rows, *parameters, *latent, *output;
+    char *hull, *shape, *snapshots, *dataset, *samples, *rows, *parameters, *latent, *output;
     size_t grid[2];
     size_t random, modes, spectrum, workspace, frames;
     uint64_t seed;
@@ -18,7 +18,7 @@ struct arguments {
     size_t n_section, n_grid;
     galv_method method;
     int area; /* weights of the points by area */
-    bool seed_given, order_given, centre, json;
+    bool seed_given, order_given, centre, displacements, json;
     const struct settings *table;
     struct model_file file; /* of MODEL */
     struct warnings warnings;
@@ -62,6 +62,8 @@ struct arguments {
 int arguments_read(int argc, char **argv, const struct settings *table,
                    struct arguments *arguments);
 void arguments_free(struct arguments *arguments);
+/* Whether the model has parameters; one of snapshots has none, which is printed. */
+bool arguments_have_parameters(const struct arguments *arguments);
 
 /* For a check: exactly one of two members is given. */
 void arguments_either(struct settings_source *source, const char *one, bool has_one,

@@ -44,7 +44,8 @@ int command_backmap(int argc, char **argv)
     if (code != -1)
         return code;
     size_t n = galv_model_parameters(a.file.model);
-    bool ok = rows_read(a.latent, galv_model_modes(a.file.model), "u", &u);
+    bool ok = arguments_have_parameters(&a) &&
+              rows_read(a.latent, galv_model_modes(a.file.model), "u", &u);
     double *x = ok ? malloc(u.count * n * sizeof *x) : NULL;
     double *residual = ok ? malloc(u.count * sizeof *residual) : NULL;
     ok = ok && ((x && residual) || cli_refuse("out of memory")) && backmap(&a, &u, x, residual);

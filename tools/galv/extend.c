@@ -135,7 +135,8 @@ int command_extend(int argc, char **argv)
     int code = arguments_read(argc, argv, &TABLE, &a);
     if (code != -1)
         return code;
-    bool ok = !a.samples || rows_read(a.samples, galv_model_parameters(a.file.model), "x", &x);
+    bool ok = arguments_have_parameters(&a) &&
+              (!a.samples || rows_read(a.samples, galv_model_parameters(a.file.model), "x", &x));
     if (ok && a.samples)
         rows_check_bounds(&x, a.samples, &a.file.shape, &a.warnings);
     code = ok ? run(&a, &x) : CLI_FAILED;

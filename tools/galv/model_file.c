@@ -77,6 +77,8 @@ static bool write_table(hid_t h5, const struct shape_definition *shape)
 
 static bool write_shape(hid_t h5, const struct shape_definition *shape)
 {
+    if (!shape->n)
+        return h5_write_text(h5, "kind", "snapshots") && h5_write_count(h5, "parameters", 0);
     double lattice[6] = {0};
     for (int j = 0; j < 3; j++) {
         lattice[j] = (double)shape->count[j];
@@ -254,18 +256,20 @@ static bool read_shape(struct reader *r, size_t parameters, struct shape_definit
     char kind[16] = "", combination[16] = "";
     size_t n = 0, index;
     double lattice[6];
-    if (!h5_read_text(r->h5, "kind", kind, sizeof kind) ||
-        !h5_read_text(r->h5, "combination", combination, sizeof combination) ||
-        !count(r, "parameters", &n) || n != parameters) {
+    if (!h5_read_text(r->h5, "kind", kind, sizeof kind) || !count(r, "parameters", &n) ||
+        n != parameters) {
         r->wrong = "shape";
         return false;
     }
+    if (!n && strcmp(kind, "snapshots") == 0)
+        return true;
     enum shape_kind which = strcmp(kind, "lattice") == 0 ? SHAPE_LATTICE : SHAPE_SINES;
     if (!shape_definition_allocate(which, n, shape)) {
         r->wrong = "shape (out of memory)";
         return false;
     }
-    if (!shape_combination_find(combination, &shape->combination)) {
+    if (!h5_read_text(r->h5, "combination", combination, sizeof combination) ||
+        !shape_combination_find(combination, &shape->combination)) {
         r->wrong = "shape (combination)";
         return false;
     }

@@ -12,9 +12,9 @@
 
 struct model_file {
     galv_model *model;
-    struct shape_definition shape;
-    size_t sections, girth; /* of the grid, 0 when the points are no grid */
-    bool uniform;           /* samples from the stream of `seed` (from 0 on) or from a file */
+    struct shape_definition shape; /* of no parameters: the samples are snapshots */
+    size_t sections, girth;        /* of the grid, 0 when the points are no grid */
+    bool uniform; /* samples from the stream of `seed` (from 0 on) or from a file */
     size_t seed;
     size_t drawn;        /* samples from the start of the stream of `seed` that the model has */
     bool moments;        /* those of `set` are appended */

@@ -109,7 +109,8 @@ int command_project(int argc, char **argv)
     if (code != -1)
         return code;
     const galv_model *model = a.file.model;
-    bool ok = !a.parameters || rows_read(a.parameters, galv_model_parameters(model), "x", &x);
+    bool ok = !a.parameters || (arguments_have_parameters(&a) &&
+                                rows_read(a.parameters, galv_model_parameters(model), "x", &x));
     if (ok && a.parameters)
         rows_check_bounds(&x, "--parameters", &a.file.shape, &a.warnings);
     double *u = ok ? malloc(x.count * galv_model_modes(model) * sizeof *u) : NULL;

@@ -90,7 +90,7 @@ int command_reconstruct(int argc, char **argv)
         return code;
     const galv_model *model = a.file.model;
     double *d = malloc(galv_model_coordinates(model) * sizeof *d);
-    bool ok = (d || cli_refuse("out of memory")) &&
+    bool ok = (d || cli_refuse("out of memory")) && (a.latent || arguments_have_parameters(&a)) &&
               (a.latent ? rows_read(a.latent, galv_model_modes(model), "u", &rows)
                         : rows_read(a.parameters, galv_model_parameters(model), "x", &rows)) &&
               (rows.count == 1 || cli_refuse("%zu rows, expected one", rows.count));

@@ -4,6 +4,7 @@
 #include "constants.h"
 #include "hull.h"
 #include "json_result.h"
+#include "snapshots.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -15,19 +16,32 @@ enum { PILOT = 500 };
 
 static const struct setting_word WEIGHTS[] = {{"equal", 0}, {"area", 1}, {NULL, 0}};
 
+static bool appends_moments(const struct arguments *a)
+{
+    return a->order_given || a->n_section;
+}
+
 static const char *choose_method(int method)
 {
     return method <= GALV_METHOD_FACTORED ? method_name((galv_method)method) : NULL;
 }
 
 static const struct setting ROWS[] = {
-    OPTION("hull", TEXT, hull, .required = true,
+    OPTION("hull", TEXT, hull,
            .sentence = "grid of points, CSV with the columns x,y,z and perhaps i,j, metres; or a "
                        "NURBS hull, JSON, sampled at its design grid"),
     OPTION("grid", COUNT, grid, .n_least = 2, .n_most = 2,
            .count = offsetof(struct arguments, n_grid), .least = 2, .most = 100000,
-           .sentence = "SxG: sections x girth points to sample a NURBS hull at instead"),
-    OPTION("shape", TEXT, shape, .required = true, .sentence = "the modification, YAML"),
+           .sentence = "SxG: sections x girth points to sample a NURBS hull at instead, or of "
+                       "snapshots without a hull"),
+    OPTION("shape", TEXT, shape, .sentence = "the modification, YAML"),
+    OPTION("snapshots", TEXT, snapshots,
+           .sentence = "in place of a modification variants of the hull: CSV, or HDF5 by its name "
+                       "(.h5, .hdf5), with a row x,y,z,x,y,z,... of points for each; without "
+                       "--hull their mean is the parent"),
+    OPTION("dataset", TEXT, dataset, .otherwise = "snapshots", .sentence = "of an HDF5 file"),
+    OPTION("displacements", SWITCH, displacements,
+           .sentence = "the rows of snapshots are moves from the hull"),
     OPTION_RANDOM,
     OPTION("seed", COUNT, seed, .otherwise = "1",
            .sentence = "of the uniform draws and of the randomised method"),
@@ -64,7 +78,16 @@ static const struct setting ROWS[] = {
 static void check(struct settings_source *source, void *target)
 {
     const struct arguments *a = target;
-    arguments_either(source, "samples", a->samples, "random", a->random);
+    arguments_either(source, "shape", a->shape, "snapshots", a->snapshots);
+    if (a->snapshots && (a->samples || a->random || a->rows || appends_moments(a)))
+        settings_complain(source, "snapshots",
+                          "takes no samples, no random draws and nothing that is appended");
+    if (a->snapshots && a->displacements && !a->hull)
+        settings_complain(source, "displacements", "needs --hull");
+    if (!a->snapshots && !a->hull)
+        settings_complain(source, "hull", "is missing");
+    if (!a->snapshots)
+        arguments_either(source, "samples", a->samples, "random", a->random);
     if (a->n_section && (a->section[0] > 8 || !a->section[1] || !a->section[2]))
         settings_complain(source, "section-moments",
                           "is %zu:%zu:%zu, expected ORDER:FIRST:STRIDE, such as 1:5:10, ORDER at "
@@ -76,6 +99,7 @@ static const struct settings TABLE = {
     sizeof ROWS / sizeof *ROWS, ROWS, .check = check,
     .usage = "usage: galv reduce --hull HULL --shape SHAPE.yaml (--samples X.csv | --random N) "
              "[OPTION]...\n"
+             "       galv reduce --snapshots VARIANTS [--hull HULL] [OPTION]...\n"
              "\n"
              "Samples the modification on the points of the grid and finds the directions of "
              "greatest\n"
@@ -89,6 +113,7 @@ struct reduction {
     struct shape_definition definition;
     galv_shape *shape;
     struct rows samples;
+    struct snapshots snapshots;
     struct cli_table rows;
     galv_moment_set set;
     galv_extra extra;
@@ -104,35 +129,34 @@ static void reduction_free(struct reduction *r)
     shape_definition_free(&r->definition);
     galv_shape_free(r->shape);
     rows_free(&r->samples);
+    snapshots_free(&r->snapshots);
     cli_table_free(&r->rows);
     galv_model_free(r->model);
-}
-
-static bool appends_moments(const struct arguments *a)
-{
-    return a->order_given || a->n_section;
 }
 
 static bool load_hull(struct reduction *r)
 {
     const struct arguments *a = r->a;
-    if (!hull_read(a->hull, a->grid[0], a->grid[1], &r->hull))
+    if (!(a->snapshots ? snapshots_read(a, &r->hull, &r->snapshots)
+                       : hull_read(a->hull, a->grid[0], a->grid[1], &r->hull)))
         return false;
     bool grid = r->hull.sections >= 2 && r->hull.girth >= 2;
     if ((a->area || appends_moments(a)) && !grid)
-        return cli_refuse("%s: area weights and moments need the columns i,j of a full grid",
-                          a->hull);
+        return cli_refuse("%s: area weights and moments need a full grid (columns i,j, or --grid)",
+                          a->hull ? a->hull : a->snapshots);
     if (!a->area)
         return true;
     r->weights = malloc(r->hull.npoints * sizeof *r->weights);
     if (!r->weights)
         return cli_refuse("out of memory");
     return !galv_grid_weights(r->hull.sections, r->hull.girth, r->hull.xyz, r->weights) ||
-           cli_refuse("%s: %s", a->hull, galv_last_error());
+           cli_refuse("%s: %s", a->hull ? a->hull : a->snapshots, galv_last_error());
 }
 
 static bool load_shape(struct reduction *r)
 {
+    if (!r->a->shape)
+        return true;
     return shape_definition_read(r->a->shape, r->hull.npoints, r->hull.xyz, &r->definition) &&
            (!shape_definition_create(&r->definition, &r->shape) ||
             cli_refuse("%s: %s", r->a->shape, galv_last_error()));
@@ -222,8 +246,15 @@ static bool build(struct reduction *r)
     options.progress_user_data = &progress;
     double start = cli_seconds();
     cli_progress_start(&progress, "samples");
-    galv_status status = galv_build(r->shape, r->hull.npoints, r->hull.xyz,
-                                    choose_sampling(r, SIZE_MAX), &options, &r->model);
+    const galv_data data = {.count = r->snapshots.count,
+                            .coordinates = 3 * r->hull.npoints,
+                            .values = r->snapshots.values,
+                            .npoints = r->hull.npoints,
+                            .xyz = r->hull.xyz};
+    galv_status status = a->snapshots
+                             ? galv_build_data(&data, &options, &r->model)
+                             : galv_build(r->shape, r->hull.npoints, r->hull.xyz,
+                                          choose_sampling(r, SIZE_MAX), &options, &r->model);
     cli_progress_end(&progress);
     r->seconds = cli_seconds() - start;
     return !status || cli_refuse("%s", galv_last_error());
@@ -242,7 +273,7 @@ static bool write_model(const struct reduction *r)
                               .moments = appends_moments(a),
                               .set = r->set,
                               .rows = r->rows.columns};
-    snprintf(file.hull, sizeof file.hull, "%s", a->hull);
+    snprintf(file.hull, sizeof file.hull, "%s", a->hull ? a->hull : a->snapshots);
     return !a->output || model_file_write(a->output, &file);
 }
 
@@ -260,8 +291,10 @@ static int print_text(const struct reduction *r)
 {
     const galv_model *model = r->model;
     galv_confidence confidence = galv_model_confidence(model);
-    printf("%zu samples of %zu parameters on %zu points, %zu of %zu coordinates move\n",
-           galv_model_samples(model), galv_model_parameters(model), galv_model_points(model),
+    printf("%zu %s", galv_model_samples(model), r->a->snapshots ? "snapshots" : "samples");
+    if (!r->a->snapshots)
+        printf(" of %zu parameters", galv_model_parameters(model));
+    printf(" on %zu points, %zu of %zu coordinates move\n", galv_model_points(model),
            galv_model_active(model), galv_model_coordinates(model));
     printf("%zu modes retain %.3f %% of the variance %.6g m^2", galv_model_modes(model),
            100 * galv_model_retained(model), galv_model_trace(model));

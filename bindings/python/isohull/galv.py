@@ -123,15 +123,8 @@ class Model(Handle):
     LIBRARY, FREE = GALV, "model_free"
 
     def __init__(self, shape, points, samples, seed=1, weights=None, **options):
-        points = array(points)
-        settings, made = STRUCTURE["galv_options"](), Created()
-        GALV.get("options_init", None, place(settings))
-        set_fields(settings, options)
-        if weights is not None:
-            weights = array(weights).reshape(-1)
-            if weights.size != points.size // 3:
-                raise ValueError("%d weights, expected %d" % (weights.size, points.size // 3))
-            settings.weights = weights.ctypes.data
+        points, made = array(points), Created()
+        settings, weights = self._settings(points, weights, options)
         sampling = STRUCTURE["galv_sampling"](seed=seed)
         if np.ndim(samples) == 0:
             sampling.count = int(samples)
@@ -142,6 +135,39 @@ class Model(Handle):
                     place(settings), made.place())
         super().__init__(made.value)
         self._shape, self._points = shape, points.shape
+
+    @staticmethod
+    def _settings(points, weights, options):
+        """The options of a build, and the weights that must live as long."""
+        settings = STRUCTURE["galv_options"]()
+        GALV.get("options_init", None, place(settings))
+        set_fields(settings, options)
+        if weights is not None:
+            weights = array(weights).reshape(-1)
+            if weights.size != points.size // 3:
+                raise ValueError("%d weights, expected %d" % (weights.size, points.size // 3))
+            settings.weights = weights.ctypes.data
+        return settings, weights
+
+    @classmethod
+    def snapshots(cls, variants, parent=None, weights=None, **options):
+        """The latent space of variants from anywhere, N x ... x 3, of which parent (... x 3) is the
+        original, else their mean. Such a model has no parameters."""
+        variants = array(variants)
+        if variants.ndim < 3 or variants.shape[-1] != 3:
+            raise ValueError("variants of shape %s, expected n x ... x 3" % (variants.shape,))
+        parent = variants.mean(axis=0) if parent is None else array(parent)
+        if parent.shape != variants.shape[1:]:
+            raise ValueError("parent of shape %s, expected %s" % (parent.shape, variants.shape[1:]))
+        parent, moves, made = array(parent), array(variants - parent), Created()
+        settings, weights = cls._settings(parent, weights, options)
+        data = STRUCTURE["galv_data"](count=len(moves), coordinates=parent.size, npoints=parent.size // 3,
+                                      values=moves.ctypes.data, xyz=parent.ctypes.data)
+        GALV.call("build_data", place(data), place(settings), made.place())
+        model = cls.__new__(cls)
+        Handle.__init__(model, made.value)
+        model._shape, model._points = None, parent.shape
+        return model
 
     @property
     def modes(self):
@@ -201,6 +227,8 @@ class Model(Handle):
 
     def backmap(self, u):
         """The parameters whose shape is nearest to a latent point's, and the distance, metres."""
+        if self._shape is None:
+            raise ValueError("a model of snapshots has no parameters")
         u, x, residual = array(u, self.modes), np.empty(self._shape.parameters), ctypes.c_double()
         self._shape._call("backmap", self._as_parameter, self._shape._as_parameter, pointer(u), pointer(x),
                           place(residual))

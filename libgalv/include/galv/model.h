@@ -171,11 +171,18 @@ typedef struct galv_data {
     const double *weights; /**< L weights, or NULL */
     const double *values;  /**< the N rows themselves, borrowed for the call; then `rows` is not
                               called. NULL: ask `rows` */
-    double reserved[8];    /**< 0: room for members of later releases */
+    size_t npoints;        /**< the rows are displacements of so many points, L = 3 npoints; 0: of
+                              nothing */
+    const double *xyz;     /**< the points of the parent, npoints triples, metres; copied; NULL
+                              without */
+    double reserved[6];    /**< 0: room for members of later releases */
 } galv_data;
 
-/** The latent space of a data set: as galv_build(), without points or parameters (options->weights
- * and options->extra are not used, galv_backmap() not possible). */
+/** The latent space of a data set: as galv_build(), without parameters, so galv_backmap() and
+ * galv_extend() are not possible. With points the model displaces them as any other
+ * (galv_displace()), and options->weights are theirs unless data->weights are given; without,
+ * options->weights is not used. options->extra is not used.
+ * @return GALV_ERROR_ARGUMENT where coordinates are not 3 npoints; else as galv_build() */
 GALV_API galv_status galv_build_data(const galv_data *data, const galv_options *options,
                                      galv_model **model);
 
