@@ -42,14 +42,14 @@ function(isohull_modules)
 endfunction()
 
 # isohull_library(NAME SUMMARY "..." [USES libraries of the suite...] [MODULES pkg-config modules...]
-# [SYSTEM libraries without one...] [OPENMP])
+# [SYSTEM libraries without one...] [OPENMP] [THREADS: options tell how many])
 #
 # The library lib<NAME>, shared or static as BUILD_SHARED_LIBS says, from the rooms of src/ with the
 # public headers include/<NAME>/*.h, its soname, its pkg-config file and its CMake package <NAME>.
 # The sources are compiled once, as <NAME>_objects; <NAME>_internal also shows what users of the
 # library cannot see, for its own tests.
 function(isohull_library name)
-  cmake_parse_arguments(ARG "OPENMP" "SUMMARY" "USES;MODULES;SYSTEM" ${ARGN})
+  cmake_parse_arguments(ARG "OPENMP;THREADS" "SUMMARY" "USES;MODULES;SYSTEM" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS src/*.c)
   file(GLOB headers CONFIGURE_DEPENDS include/${name}/*.h)
   string(TOUPPER ${name} upper)
@@ -65,8 +65,11 @@ function(isohull_library name)
     list(APPEND third_parties ${ISOHULL_OPENMP_TARGET})
   endif()
 
+  if(ARG_THREADS)
+    list(APPEND sources ${PROJECT_SOURCE_DIR}/internal/threads.c)
+  endif()
   add_library(${name}_objects OBJECT ${sources} ${headers})
-  target_include_directories(${name}_objects PUBLIC include src
+  target_include_directories(${name}_objects PUBLIC include src ${PROJECT_SOURCE_DIR}/internal
                                                       ${CMAKE_CURRENT_BINARY_DIR}/include)
   target_compile_definitions(${name}_objects PRIVATE ${upper}_VERSION_STRING="${PROJECT_VERSION}")
   target_link_libraries(${name}_objects PRIVATE isohull_flags PUBLIC ${ARG_USES} ${third_parties})

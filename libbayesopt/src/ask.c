@@ -2,6 +2,7 @@
 #include "error.h"
 #include "internal.h"
 #include "store.h"
+#include "threads.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -167,6 +168,7 @@ bayesopt_status bayesopt_ask_levels(bayesopt *bo, size_t n, double *x, uint64_t 
     NEED_MOST(n, BAYESOPT_MOST_POINTS);
     if (!n)
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "asked for no points");
+    THREADS((int)bo->options.threads);
     bayesopt_status status = store_begin(bo);
     if (status)
         return status;

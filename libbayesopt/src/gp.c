@@ -3,6 +3,7 @@
 #include "gp_internal.h"
 #include "kernel.h"
 #include "matrix.h"
+#include "threads.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -71,6 +72,10 @@ static bayesopt_status check_options(size_t d, const bayesopt_gp_options *o)
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
                              "gp: %zu starts of %zu evaluations, expected 1 to %d of each",
                              o->starts, o->evaluations, MOST_SEARCH);
+    if (!threads_are(o->threads))
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
+                             "gp: threads is %g, expected a whole number from 0 to %d", o->threads,
+                             MOST_THREADS);
     for (size_t j = 0; j < d && o->categorical && o->mean == BAYESOPT_MEAN_LINEAR; j++)
         if (o->categorical[j])
             return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
@@ -455,6 +460,7 @@ bayesopt_status bayesopt_gp_set_parameters(bayesopt_gp *gp,
             BAYESOPT_ERROR_ARGUMENT,
             "gp: signal %g, noise %g, mean %g: expected positive, not negative, finite",
             parameters->signal, parameters->noise, parameters->mean);
+    THREADS((int)gp->options.threads);
     memcpy(gp->lengthscale, parameters->lengthscale, gp->d * sizeof *gp->lengthscale);
     gp->signal = parameters->signal;
     gp->noise = parameters->noise;
@@ -503,6 +509,7 @@ bayesopt_status bayesopt_gp_append(bayesopt_gp *gp, size_t n, const double *x, c
         status = gp_reserve(gp, gp->n + n);
     if (status)
         return status;
+    THREADS((int)gp->options.threads);
     copy_data(gp, gp->n, n, x, y, variance);
     bool ok = true;
     for (size_t i = gp->n; i < gp->n + n && ok; i++) {

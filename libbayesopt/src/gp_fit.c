@@ -3,6 +3,7 @@
 #include "gp_internal.h"
 #include "matrix.h"
 #include "random.h"
+#include "threads.h"
 
 #include <math.h>
 #include <nlopt.h>
@@ -622,6 +623,7 @@ bayesopt_status bayesopt_gp_fit(bayesopt_gp *gp)
     NEED(gp);
     if (!gp->n)
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "gp: fit without data");
+    THREADS((int)gp->options.threads);
     size_t *isotropic_groups = calloc(gp->d, sizeof *isotropic_groups);
     if (!isotropic_groups)
         return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "gp: out of memory");

@@ -3,6 +3,7 @@
 #include "gp_internal.h"
 #include "kernel.h"
 #include "matrix.h"
+#include "threads.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -86,6 +87,7 @@ bayesopt_status bayesopt_gp_predict(const bayesopt_gp *gp, size_t m, const doubl
     bayesopt_status status = need(gp, "prediction");
     if (status)
         return status;
+    THREADS((int)gp->options.threads);
     double *k = malloc((gp->n + gp->d + gp->p) * BLOCK * sizeof *k);
     if (!k)
         return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "gp: out of memory");
@@ -110,6 +112,7 @@ bayesopt_status bayesopt_gp_predict_gradient(const bayesopt_gp *gp, const double
     bayesopt_status status = need(gp, "prediction");
     if (status)
         return status;
+    THREADS((int)gp->options.threads);
     size_t n = gp->n, d = gp->d, p = gp->p, ld = gp->capacity;
     double *k = work, *w = work + n, point[BAYESOPT_MOST_VARIABLES], r[BAYESOPT_MOST_VARIABLES + 1];
     for (size_t j = 0; j < d; j++)
@@ -165,6 +168,7 @@ bayesopt_status bayesopt_gp_log_likelihood(const bayesopt_gp *gp, double *value,
     bayesopt_status status = need(gp, "likelihood");
     if (status)
         return status;
+    THREADS((int)gp->options.threads);
     *value = gp->log_likelihood;
     if (!gradient)
         return BAYESOPT_OK;
@@ -196,6 +200,7 @@ bayesopt_status bayesopt_gp_loo(const bayesopt_gp *gp, double *mean, double *var
     bayesopt_status status = need(gp, "leave-one-out");
     if (status)
         return status;
+    THREADS((int)gp->options.threads);
     size_t ld = gp->capacity;
     double *inverse = malloc(ld * ld * sizeof *inverse);
     if (!inverse)

@@ -2,6 +2,7 @@
 #include "error.h"
 #include "front.h"
 #include "internal.h"
+#include "threads.h"
 
 #include <math.h>
 
@@ -192,6 +193,10 @@ bayesopt_status options_check(size_t d, const double *lower, const double *upper
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
                              "%zu levels of cost ratio %g, expected 1 or 2 and a ratio in (0, 1]",
                              o->n_levels, o->level_cost_ratio);
+    if (!threads_are(o->threads))
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT,
+                             "threads is %g, expected a whole number from 0 to %d", o->threads,
+                             MOST_THREADS);
     if (!(o->lcb_factor > 0 && isfinite(o->lcb_factor)))
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "lcb_factor is %g, expected positive",
                              o->lcb_factor);

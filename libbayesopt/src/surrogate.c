@@ -4,6 +4,7 @@
 #include "gp_internal.h"
 #include "internal.h"
 #include "label.h"
+#include "threads.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -182,6 +183,7 @@ static void model_options(const struct bayesopt *bo, size_t which, bayesopt_gp_o
     o->group = bo->group;
     o->choice = bo->options.choice;
     o->categorical = bo->categorical;
+    o->threads = bo->options.threads;
     bool objective = which == 0;
     for (size_t k = 1; k < bo->options.n_objectives; k++)
         objective = objective || which == objective_model(bo, k);
@@ -203,6 +205,7 @@ static bool is_cold(const struct model_state *state, size_t n)
 static bayesopt_status fit_labels(struct bayesopt *bo, size_t which, const struct sample *sample,
                                   bool keep)
 {
+    THREADS((int)bo->options.threads);
     struct model_state *state = &bo->surrogates.states[which];
     bool cold = is_cold(state, sample->n);
     double lengthscale = state->lengthscale[0];

@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-enum { N = 40, LARGE = 150 };
+enum { N = 40, LARGE = 600 }; /* LARGE: LU by panels */
 
 struct dense {
     size_t n;
@@ -255,7 +255,7 @@ static void test_systems(void)
     double *shift = calloc(LARGE * LARGE, sizeof *shift);
     double point[3 * LARGE], right[LARGE], x[LARGE], expected[LARGE], direct, estimate;
     CU_ASSERT_FATAL(rows && sum && shift);
-    const struct matrix matrix = {LARGE, STRIDE, rows, 2};
+    const struct matrix matrix = {.n = LARGE, .stride = STRIDE, .rows = rows, .threads = 2};
     unsigned state = 11;
     fill_system(rows, STRIDE, point);
     for (size_t i = 0; i < LARGE; i++) {
@@ -272,7 +272,7 @@ static void test_systems(void)
         struct gmres_result result;
         for (size_t i = 0; i < LARGE * LARGE; i++)
             sum[i] = rows[i / LARGE * STRIDE + i % LARGE] + (k ? shift[i] : 0.0);
-        const struct matrix copy = {LARGE, LARGE, sum, 1};
+        const struct matrix copy = {.n = LARGE, .stride = LARGE, .rows = sum, .threads = 1};
         memcpy(expected, right, sizeof expected);
         CU_ASSERT_EQUAL(linear_lu(&copy, expected, k ? NULL : &direct), IGABEM_OK);
         memset(x, 0, sizeof x);

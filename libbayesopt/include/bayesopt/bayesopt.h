@@ -161,7 +161,10 @@ typedef struct bayesopt_options {
                          is sought by expected hypervolume improvement, and the others are told as
                          the last n_objectives - 1 of the outcomes, behind the constraints */
     const bool *maximise_others; /**< [n_objectives - 1] default NULL = all are minimised */
-    double reserved[6];          /**< 0: room for members of later releases */
+    double threads;     /**< of the BLAS of the whole process during asks and tells, a whole
+                             number up to 1024; default 0 = as OpenBLAS decides. Not kept in
+                             the store */
+    double reserved[5]; /**< 0: room for members of later releases */
 } bayesopt_options;
 
 /** Fills the defaults. */

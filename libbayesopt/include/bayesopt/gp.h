@@ -7,9 +7,8 @@
  * one of bayesopt_kernel; for a categorical variable the difference is 0 or 1, which keeps r a
  * Euclidean distance and K positive definite. Rasmussen and Williams, Gaussian Processes for
  * Machine Learning, 2006, ch. 2, 5. Matrices are worked on by OpenBLAS and LAPACK: with the same
- * number of its threads results have the same bits, with another they agree to rounding. A few
- * hundred points gain nothing from threads; programs that run several regressions side by side set
- * OPENBLAS_NUM_THREADS=1.
+ * number of threads results have the same bits, with another they agree to rounding. A few hundred
+ * points gain nothing from more than one.
  */
 #ifndef BAYESOPT_GP_H
 #define BAYESOPT_GP_H
@@ -105,7 +104,9 @@ typedef struct bayesopt_gp_options {
         *categorical;   /**< [d] copied; variables whose values are names without order: any
                            two that differ are 1 apart in r, that is 1/l_j, which is the
                            distance of their one-hot codes up to a factor; default NULL: none */
-    double reserved[8]; /**< 0: room for members of later releases */
+    double threads;     /**< of the BLAS of the whole process during a call, a whole number up to
+                             1024; default 0: as OpenBLAS decides */
+    double reserved[7]; /**< 0: room for members of later releases */
 } bayesopt_gp_options;
 
 /** Fills the defaults; nothing when NULL. */

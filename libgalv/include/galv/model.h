@@ -93,8 +93,8 @@ typedef struct galv_options {
     uint64_t seed;            /**< of the randomised start block; default 1 */
     galv_progress progress;   /**< default NULL */
     void *progress_user_data; /**< default NULL */
-    int threads; /**< of loops over points and samples; default 0: as OpenMP decides; at most 1024.
-                    OpenBLAS has its own number */
+    int threads; /**< of loops over points and samples, and of the BLAS of the whole process during
+                    the call; default 0: as they decide; at most 1024 */
     double reserved[7]; /**< 0: room for members of later releases */
 } galv_options;
 

@@ -34,7 +34,9 @@ typedef enum igabem_solver {
                            IGABEM_ERROR_NUMERIC when it does not converge */
 } igabem_solver;
 
-/** Receives progress in [0,1]; a non-zero return cancels (IGABEM_ERROR_CANCELLED). */
+/** Receives progress in [0,1], in the thread that called: after every hundredth, else twice a
+ * second, as far as rows of matrices, blocks of factors and iterations are done by then. A non-zero
+ * return cancels (IGABEM_ERROR_CANCELLED). */
 typedef int (*igabem_progress)(void *user_data, double fraction);
 
 /** All settings of a solve. NAN means "by the rule that the field's comment gives". */
@@ -81,7 +83,8 @@ typedef struct igabem_options {
     double tolerance;         /**< relative error asked of the quadrature; 1e-5 */
     igabem_solver solver;     /**< IGABEM_SOLVER_AUTO */
     int sensitivity;          /**< also C_w at 0.85 and 1.15 of the cut-off; 0 */
-    int threads;              /**< 0: as OpenMP decides; at most 1024 */
+    int threads;              /**< of OpenMP, and of the BLAS of the whole process during a call; 0:
+                                 as they decide; at most 1024 */
     igabem_progress progress; /**< NULL: none */
     void *progress_user_data;
 

@@ -213,18 +213,23 @@ static igabem_status work_create(const struct assembly *assembly, struct row_wor
     return status;
 }
 
-static igabem_status fill(const struct assembly *assembly, int threads,
+static igabem_status fill(const struct assembly *assembly, const struct influence *hull,
                           struct exterior_system *system)
 {
     igabem_status result = IGABEM_OK;
-#pragma omp parallel num_threads(threads)
+    if (hull->progress)
+        progress_stage(hull->progress, hull->progress->to, system->n);
+#pragma omp parallel num_threads(hull->threads)
     {
         struct row_work work;
         igabem_status status = work_create(assembly, &work);
 #pragma omp for schedule(dynamic, 4)
         for (size_t i = 0; i < system->n; i++)
-            if (status == IGABEM_OK)
+            if (status == IGABEM_OK) {
                 status = fill_row(assembly, i, &work, system);
+                if (progress_step(hull->progress))
+                    status = IGABEM_ERROR_CANCELLED;
+            }
         for (size_t p = 0; p < assembly->parts; p++)
             layer_work_free(&work.layer[p]);
         free(work.single);
@@ -232,6 +237,8 @@ static igabem_status fill(const struct assembly *assembly, int threads,
         if (status != IGABEM_OK)
             result = status;
     }
+    if (result == IGABEM_ERROR_CANCELLED)
+        return progress_status(hull->progress);
     return result == IGABEM_OK ? result : no_memory(system->n);
 }
 
@@ -291,7 +298,7 @@ igabem_status exterior_system_create(const struct influence *hull,
     igabem_status status = assembly_create(hull, surface, transom, &assembly);
     if (status != IGABEM_OK)
         return status;
-    status = fill(&assembly, hull->threads, system);
+    status = fill(&assembly, hull, system);
     assembly_free(&assembly);
     return status;
 }

@@ -6,6 +6,7 @@
 #ifndef INFLUENCE_H
 #define INFLUENCE_H
 
+#include "core/progress.h"
 #include "influence/filter_change.h"
 #include "space/line.h"
 
@@ -30,7 +31,8 @@ struct influence {
                                                   one direction */
     double *storage;
     int threads;
-    struct igabem_cost *cost; /* where the integrals add their work; NULL: nowhere */
+    struct igabem_cost *cost;  /* where the integrals add their work; NULL: nowhere */
+    struct progress *progress; /* told of each row of the stage at work; NULL: nobody listens */
 };
 
 igabem_status influence_create(const struct density *density, const struct mesh *mesh,

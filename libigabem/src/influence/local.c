@@ -225,6 +225,8 @@ static igabem_status all_rows(const struct influence *influence, const struct li
                    factor = (weight ? weight[i] : 1.0) * k0 * k0 / (4.0 * PI);
             status = line ? line_rows(influence, line, k0, factor, const_image, images, &work, to)
                           : surface_rows(influence, k0, factor, const_image, images, &work, to);
+            if (progress_step(influence->progress))
+                status = IGABEM_ERROR_CANCELLED;
         }
 #pragma omp critical
         {
@@ -237,6 +239,8 @@ static igabem_status all_rows(const struct influence *influence, const struct li
         free(work.far);
         free(work.batch);
     }
+    if (result == IGABEM_ERROR_CANCELLED)
+        return progress_status(influence->progress);
     if (result == IGABEM_ERROR_MEMORY)
         return igabem_fail(result, "no memory for the local part of the Green function");
     return result == IGABEM_OK ? result

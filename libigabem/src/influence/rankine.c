@@ -244,6 +244,8 @@ igabem_status influence_rankine(const struct influence *influence, double *ranki
             status = point_rows(influence, i, &work, views, direct, mirrored);
             for (size_t k = 0; k < 3 * n && direct && mirrored == buffer; k++)
                 direct[k] += weight * buffer[k];
+            if (progress_step(influence->progress))
+                status = IGABEM_ERROR_CANCELLED;
         }
 #pragma omp critical
         {
@@ -257,6 +259,8 @@ igabem_status influence_rankine(const struct influence *influence, double *ranki
         free(views);
         free(buffer);
     }
+    if (result == IGABEM_ERROR_CANCELLED)
+        return progress_status(influence->progress);
     return result == IGABEM_OK ? result
                                : igabem_fail(result, "no memory for the Rankine integrals");
 }

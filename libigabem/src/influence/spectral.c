@@ -374,6 +374,9 @@ static igabem_status march(const struct spectral *wave, int threads, double *row
 {
     const struct density *density = wave->influence->density;
     size_t blocks = wave->points / BLOCK_POINTS + 1;
+    struct progress *progress = wave->influence->progress;
+    if (progress)
+        progress_stage(progress, progress->to, wave->sources + blocks);
     igabem_status result = IGABEM_OK;
 #pragma omp parallel num_threads(threads)
     {
@@ -389,8 +392,11 @@ static igabem_status march(const struct spectral *wave, int threads, double *row
             status = igabem_fail(IGABEM_ERROR_MEMORY, "no memory for wave sums");
 #pragma omp for schedule(dynamic, 1)
         for (size_t i = 0; i < wave->sources; i++)
-            if (status == IGABEM_OK)
+            if (status == IGABEM_OK) {
                 status = source_moments(wave, &wave->source[i], &work);
+                if (progress_step(wave->influence->progress))
+                    status = IGABEM_ERROR_CANCELLED;
+            }
 #pragma omp single
         for (size_t i = 0; i < wave->sources && wave->change; i++) {
             size_t range[2] = {0, 0};
@@ -399,9 +405,12 @@ static igabem_status march(const struct spectral *wave, int threads, double *row
 /* each thread's blocks come in increasing order, as its state needs them */
 #pragma omp for schedule(monotonic : dynamic, 1)
         for (size_t b = 0; b < blocks; b++)
-            if (status == IGABEM_OK)
+            if (status == IGABEM_OK) {
                 status = block_rows(wave, wave->points * b / blocks,
                                     wave->points * (b + 1) / blocks, &work, &state, factor, rows);
+                if (progress_step(wave->influence->progress))
+                    status = IGABEM_ERROR_CANCELLED;
+            }
 #pragma omp critical
         {
             influence_count(wave->influence, &work.cost);
@@ -415,6 +424,8 @@ static igabem_status march(const struct spectral *wave, int threads, double *row
         free(state.moments);
         free(factor);
     }
+    if (result == IGABEM_ERROR_CANCELLED)
+        return progress_status(wave->influence->progress);
     return result == IGABEM_OK ? result : igabem_fail(result, "no memory for the wave part");
 }
 

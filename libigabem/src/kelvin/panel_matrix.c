@@ -1,9 +1,9 @@
 /* Matrices of all pairs of field points and sources or panels, row by row in parallel. */
 #include "core/constants.h"
 #include "core/error.h"
-#include "core/threads.h"
 #include "kelvin/kelvin_green.h"
 #include "kelvin/panel_rule.h"
+#include "threads.h"
 
 #include <math.h>
 #include <stdint.h>

@@ -2,12 +2,12 @@
  * Rankine terms cancel and phi_x = (k0^2/4 pi) Sum q (N_X + W_X) over surface and line sources. */
 #include "core/constants.h"
 #include "core/error.h"
-#include "core/threads.h"
 #include "result/elevation_march.h"
 #include "result/elevation_surface.h"
 #include "result/elevation_tree.h"
 #include "result/radiation.h"
 #include "solve/resolution.h"
+#include "threads.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,9 +2,9 @@
  * 6 and 7). */
 #include "core/constants.h"
 #include "core/error.h"
-#include "core/threads.h"
 #include "result/kochin.h"
 #include "result/radiation.h"
+#include "threads.h"
 
 #include <math.h>
 

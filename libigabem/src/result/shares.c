@@ -1,9 +1,9 @@
 /* What zones along the hull contribute to the wave resistance. With H = Sum H_k over zones,
  * |H|^2 = Sum Re(H_k conj H): the interference of two zones goes to both in equal parts. */
 #include "core/error.h"
-#include "core/threads.h"
 #include "result/amplitude.h"
 #include "result/radiation.h"
+#include "threads.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -9,9 +9,9 @@
  * stationary phase, and transformed along a path on which e^{i s xi} decays. */
 #include "core/constants.h"
 #include "core/error.h"
-#include "core/threads.h"
 #include "result/amplitude.h"
 #include "result/radiation.h"
+#include "threads.h"
 
 #include <nurbs/basis.h>
 

@@ -31,7 +31,7 @@ static igabem_status solve_directly(const struct matrix *matrix, igabem_solution
         return solution_no_memory(n);
     solution->memory += sum ? (double)(n * n * sizeof *sum) : 0.0;
     for (size_t f = filters; f-- > 0 && status == IGABEM_OK;) {
-        const struct matrix changed = {n, n, sum, matrix->threads};
+        const struct matrix changed = {n, n, sum, matrix->threads, matrix->progress};
         if (f > 0) {
             filter_change_expand(change, f - 1, sum);
             for (size_t i = 0; i < n; i++)

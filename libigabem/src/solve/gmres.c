@@ -145,6 +145,9 @@ static size_t run_cycle(const struct gmres *gmres, struct cycle *cycle, double l
     while (k < cycle->m && result->iterations < gmres->most) {
         arnoldi(gmres, cycle, k);
         result->iterations++;
+        result->cancelled = gmres->cancelled && gmres->cancelled(gmres->data);
+        if (result->cancelled)
+            return k;
         int invariant = cycle->r[k * (cycle->m + 1) + k + 1] == 0.0;
         if (!rotate(cycle, k))
             return k;
@@ -180,6 +183,8 @@ static igabem_status iterate(const struct gmres *gmres, const double *right, dou
                 result->iterations, result->residual, gmres->tolerance);
         /* A little below the tolerance: the residual of x itself decides. */
         size_t columns = run_cycle(gmres, cycle, length, 0.5 * gmres->tolerance * size, result);
+        if (result->cancelled)
+            return IGABEM_ERROR_CANCELLED;
         if (columns > 0)
             advance(gmres, cycle, columns, x);
         double after = residual(gmres, right, x, cycle->vector);
@@ -198,7 +203,7 @@ static igabem_status iterate(const struct gmres *gmres, const double *right, dou
 igabem_status gmres_solve(const struct gmres *gmres, const double *right, double *x,
                           struct gmres_result *result)
 {
-    *result = (struct gmres_result){0, NAN};
+    *result = (struct gmres_result){0, NAN, false};
     if (gmres->n > INT_MAX)
         return igabem_fail(IGABEM_ERROR_ARGUMENT, "%zu unknowns are too many for BLAS", gmres->n);
     size_t restart = gmres->restart < gmres->n ? gmres->restart : gmres->n;

@@ -5,22 +5,25 @@
 
 #include <igabem/status.h>
 
+#include <stdbool.h>
 #include <stddef.h>
 
 typedef void (*gmres_product)(const void *data, const double *x, double *y);
 
 struct gmres {
     size_t n;
-    gmres_product matrix;       /* y = A x */
-    gmres_product precondition; /* y = M^-1 x; NULL: none */
-    const void *data;           /* handed to both */
-    size_t restart, most;       /* vectors kept; largest number of iterations */
-    double tolerance;           /* of ||b - A x|| / ||b|| */
+    gmres_product matrix;                /* y = A x */
+    gmres_product precondition;          /* y = M^-1 x; NULL: none */
+    bool (*cancelled)(const void *data); /* asked after each iteration; NULL: never */
+    const void *data;                    /* handed to all */
+    size_t restart, most;                /* vectors kept; largest number of iterations */
+    double tolerance;                    /* of ||b - A x|| / ||b|| */
 };
 
 struct gmres_result {
     size_t iterations; /* products with A and M^-1, without those for residuals */
     double residual;   /* ||b - A x|| / ||b||, from the last x itself */
+    bool cancelled;
 };
 
 /* Solves A x = right from the x given. IGABEM_ERROR_NUMERIC when the limit is reached, when a whole

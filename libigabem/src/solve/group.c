@@ -1,20 +1,12 @@
 #include "solve/group.h"
 
-#include "core/threads.h"
 #include "solve/formulation.h"
 #include "solve/potential.h"
 #include "solve/setting.h"
+#include "threads.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
-
-static double wall_seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 bool group_has_both(const igabem_options *a, const igabem_options *b)
 {
@@ -92,11 +84,12 @@ static igabem_status solve_settings(struct influence *influence, struct parts *p
         influence->cost = &solution->cost;
         if (parts->local && formulation_has_waves(&solution->options) &&
             solution->k0 != parts->local_k0) {
+            progress_stage(progress, done + 0.5 * share, influence->density->n);
             status = fill_local(influence, n - m, solutions + m, parts->local);
             parts->local_k0 = solution->k0;
         }
         if (status == IGABEM_OK)
-            status = setting_solve(influence, parts, progress, done + 0.5 * share, solution);
+            status = setting_solve(influence, parts, share, solution);
         solution->seconds = common + wall_seconds() - start;
         done += share;
         if (status == IGABEM_OK)
@@ -114,6 +107,7 @@ static igabem_status solve_densities(struct influence *influence, size_t n,
     struct parts parts = {NULL, NULL, NULL, 0.0};
     struct igabem_cost shared_cost = {0};
     influence->cost = &shared_cost;
+    progress_stage(progress, done + 0.5 * share * (double)n, influence->density->n);
     igabem_status status = fill_parts(influence, n, solutions, &parts);
     double common = (wall_seconds() - start) / (double)n;
     if (parts.rankine) {
@@ -145,6 +139,8 @@ igabem_status group_solve(size_t n, igabem_solution *const *solutions, double sh
     if (status == IGABEM_OK)
         status =
             influence_create(first->density, mesh, first->options.tolerance, threads, &influence);
+    if (status == IGABEM_OK)
+        influence->progress = progress;
     for (size_t m = 0; m < n && status == IGABEM_OK; m++)
         sorted[solutions[m]->potential ? --potentials : densities++] = solutions[m];
     double common = (wall_seconds() - start) / (double)n;

@@ -2,7 +2,7 @@
 #ifndef GROUP_H
 #define GROUP_H
 
-#include "solve/progress.h"
+#include "core/progress.h"
 #include "solve/solution.h"
 
 bool group_has_both(const igabem_options *a, const igabem_options *b);

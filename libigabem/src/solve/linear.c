@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/vector_math.h"
 
+#include <cblas.h>
 #include <lapacke.h>
 #include <limits.h>
 #include <math.h>
@@ -10,6 +11,8 @@
 #include <string.h>
 
 enum { RESTART = 60, MOST = 300, ESTIMATES = 10 };
+/* Unknowns that LU solves at once, in a fraction of a second, and columns of a panel beyond. */
+enum { AT_ONCE = 512, PANEL = 256 };
 static const double TOLERANCE = 1e-12;
 /* For the condition estimate, which it can raise by a share of sqrt(n) times this at most. */
 static const double ROUGH = 1e-3;
@@ -33,11 +36,43 @@ static igabem_status check_norm(double norm)
     return IGABEM_OK;
 }
 
-static igabem_status factored_solve(lapack_int order, double *a, lapack_int stride, double norm,
-                                    lapack_int *pivots, double *right, double *condition)
+/* LU by panels of columns, right-looking (Golub and Van Loan, Matrix Computations, 3.2.11), so that
+ * a large one can be cancelled; of one panel it is LAPACK's own. */
+static lapack_int factor(struct progress *progress, lapack_int order, double *a, lapack_int stride,
+                         lapack_int *pivots)
 {
-    double reciprocal = 0.0;
-    lapack_int info = LAPACKE_dgetrf(LAPACK_COL_MAJOR, order, order, a, stride, pivots);
+    lapack_int width = order > AT_ONCE ? PANEL : order, info = 0;
+    progress_stage(progress, progress ? progress->to : 0.0, (size_t)(order / width) + 1);
+    for (lapack_int j = 0; j < order && info == 0; j += width) {
+        lapack_int w = order - j < width ? order - j : width, right = order - j - w;
+        double *panel = a + (size_t)j * (size_t)stride, *rest = panel + (size_t)w * (size_t)stride;
+        info = LAPACKE_dgetrf(LAPACK_COL_MAJOR, order - j, w, panel + j, stride, pivots + j);
+        for (lapack_int k = j; k < j + w; k++)
+            pivots[k] += j;
+        if (info == 0 && j > 0)
+            info = LAPACKE_dlaswp(LAPACK_COL_MAJOR, j, a, stride, j + 1, j + w, pivots, 1);
+        if (info == 0 && right > 0)
+            info = LAPACKE_dlaswp(LAPACK_COL_MAJOR, right, rest, stride, j + 1, j + w, pivots, 1);
+        if (info == 0 && right > 0) {
+            cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasUnit, w, right,
+                        1.0, panel + j, stride, rest + j, stride);
+            cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, right, right, w, -1.0,
+                        panel + j + w, stride, rest + j, stride, 1.0, rest + j + w, stride);
+        }
+        if (progress_step(progress))
+            break;
+    }
+    return info;
+}
+
+static igabem_status factored_solve(const struct matrix *matrix, double norm, lapack_int *pivots,
+                                    double *right, double *condition)
+{
+    double reciprocal = 0.0, *a = matrix->rows;
+    lapack_int order = (lapack_int)matrix->n, stride = (lapack_int)matrix->stride;
+    lapack_int info = factor(matrix->progress, order, a, stride, pivots);
+    if (progress_status(matrix->progress))
+        return IGABEM_ERROR_CANCELLED;
     if (info == 0 && condition) {
         info = LAPACKE_dgecon(LAPACK_COL_MAJOR, 'I', order, a, stride, norm, &reciprocal);
         *condition = 1.0 / reciprocal;
@@ -66,7 +101,7 @@ igabem_status linear_lu(const struct matrix *matrix, double *right, double *cond
     double *a = matrix->rows, norm = LAPACKE_dlange(LAPACK_COL_MAJOR, 'I', order, order, a, stride);
     status = check_norm(norm);
     if (status == IGABEM_OK)
-        status = factored_solve(order, a, stride, norm, pivots, right, condition);
+        status = factored_solve(matrix, norm, pivots, right, condition);
     free(pivots);
     return status;
 }
@@ -246,17 +281,27 @@ void iteration_free(struct iteration *iteration)
     free(iteration);
 }
 
+/* Asked after each iteration. */
+static bool cancelled(const void *data)
+{
+    const struct view *view = data;
+    return progress_step(view->iteration->matrix.progress);
+}
+
 static igabem_status run(const struct view *view, double tolerance, const double *right, double *x,
                          struct gmres_result *result)
 {
     const struct gmres gmres = {.n = view->iteration->matrix.n,
                                 .matrix = view->transposed ? multiply_transposed : multiply,
                                 .precondition = solve_band,
+                                .cancelled = cancelled,
                                 .data = view,
                                 .restart = RESTART,
                                 .most = MOST,
                                 .tolerance = tolerance};
-    return gmres_solve(&gmres, right, x, result);
+    igabem_status status = gmres_solve(&gmres, right, x, result);
+    return status == IGABEM_ERROR_CANCELLED ? progress_status(view->iteration->matrix.progress)
+                                            : status;
 }
 
 igabem_status iteration_solve(const struct iteration *iteration, const struct addend *addend,

@@ -3,12 +3,14 @@
 #ifndef LINEAR_H
 #define LINEAR_H
 
+#include "core/progress.h"
 #include "solve/gmres.h"
 
 struct matrix {
     size_t n, stride;
     double *rows;
     int threads;
+    struct progress *progress; /* told of blocks of LU and of iterations; NULL: nobody listens */
 };
 
 /* Solves matrix x = right (replaced by x; the matrix by its factors) and estimates the condition

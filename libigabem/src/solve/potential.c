@@ -7,14 +7,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
-
-static double wall_seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 static bool same_surface(const igabem_options *a, const igabem_options *b)
 {
@@ -155,7 +147,7 @@ static igabem_status solve_one(const struct influence *influence,
         rows[k] = system->fixed[k] - scale * system->wave[k] - damping * system->odd[k];
     for (size_t i = 0; i < n; i++)
         right[i] = solution->speed * (system->right[i] + solution->k0 * system->slope[i]);
-    const struct matrix matrix = {n, n, rows, influence->threads};
+    const struct matrix matrix = {n, n, rows, influence->threads, influence->progress};
     igabem_status status = linear_lu(&matrix, right, &solution->condition);
     solution->options.solver = IGABEM_SOLVER_LU;
     solution->memory = 4.0 * (double)(n * n * sizeof *rows);
@@ -182,6 +174,9 @@ static igabem_status solve_alike(const struct influence *influence, size_t n,
     for (size_t m = 0; m < n; m++)
         alike += !done[m] && same_surface(&solutions[0]->options, &solutions[m]->options);
     igabem_status status = make_surface(influence, solutions[0], &surface, &transom);
+    /* The integrals of all are half of it. */
+    progress_stage(progress, fraction + 0.5 * share * (double)alike, 1);
+    fraction += 0.5 * share * (double)alike;
     if (status == IGABEM_OK)
         status = exterior_system_create(influence, surface, transom, &system);
     double *rows = status == IGABEM_OK ? malloc(system.n * system.n * sizeof *rows) : NULL;
@@ -193,9 +188,10 @@ static igabem_status solve_alike(const struct influence *influence, size_t n,
             continue;
         done[m] = true;
         start = wall_seconds();
+        progress_stage(progress, fraction + 0.5 * share, 1);
         status = solve_one(influence, &system, rows, solutions[m]);
         solutions[m]->seconds = common + wall_seconds() - start;
-        fraction += share;
+        fraction += 0.5 * share;
         if (status == IGABEM_OK)
             status = progress_report(progress, fraction);
     }

@@ -3,8 +3,8 @@
 #ifndef POTENTIAL_H
 #define POTENTIAL_H
 
+#include "core/progress.h"
 #include "influence/influence.h"
-#include "solve/progress.h"
 #include "solve/solution.h"
 
 igabem_status potential_solve(struct influence *influence, size_t n,

@@ -23,10 +23,14 @@ static void add_weighted(const struct influence *influence, const double *weight
             to[k] += weight[i] * from[k];
 }
 
+/* Of a setting's share, what is done after the integrals of each part; the solution is the rest. */
+static const double RANKINE_DONE = 0.4, LOCAL_DONE = 0.65, LINE_DONE = 0.7, WAVE_DONE = 0.85;
+
 /* Adds waterline and waves of one setting to rows; creates the operator of what the filters beyond
  * the first change in the matrix. */
 static igabem_status wave_rows(const struct influence *influence, const igabem_solution *solution,
-                               const double *weight, double *rows, struct filter_change **change)
+                               double from, double share, const double *weight, double *rows,
+                               struct filter_change **change)
 {
     const igabem_options *options = &solution->options;
     double cutoff[FILTERS_MOST];
@@ -35,8 +39,10 @@ static igabem_status wave_rows(const struct influence *influence, const igabem_s
     igabem_status status = IGABEM_OK;
     if (options->line_term)
         status = line_create(influence->density, influence->mesh, options->stem_limit, &line);
+    progress_stage(influence->progress, from + LINE_DONE * share, influence->density->n);
     if (status == IGABEM_OK && line)
         status = influence_local_line(influence, line, solution->k0, weight, rows);
+    progress_stage(influence->progress, from + WAVE_DONE * share, 1);
     if (status == IGABEM_OK)
         status =
             influence_wave(influence, line, solution->k0, filters, cutoff, weight, rows, change);
@@ -44,15 +50,16 @@ static igabem_status wave_rows(const struct influence *influence, const igabem_s
     return status;
 }
 
-/* Fills rows with the velocities of a setting; fraction is done after the Rankine part. */
+/* Fills rows with the velocities of a setting. */
 static igabem_status fill_rows(const struct influence *influence, const struct parts *parts,
-                               struct progress *progress, double fraction,
-                               const struct weights *weights, const igabem_solution *solution,
-                               double *rows, struct filter_change **change)
+                               double from, double share, const struct weights *weights,
+                               const igabem_solution *solution, double *rows,
+                               struct filter_change **change)
 {
     size_t n = influence->density->n;
     const double *image = formulation_has_image(&solution->options) ? weights->image : NULL;
     igabem_status status = IGABEM_OK;
+    progress_stage(influence->progress, from + RANKINE_DONE * share, n);
     if (parts->rankine) {
         memcpy(rows, parts->rankine, 3 * n * n * sizeof *rows);
         if (image)
@@ -60,16 +67,15 @@ static igabem_status fill_rows(const struct influence *influence, const struct p
     } else {
         status = influence_rankine(influence, rows, NULL, image);
     }
-    if (status == IGABEM_OK)
-        status = progress_report(progress, fraction);
     if (status != IGABEM_OK || !formulation_has_waves(&solution->options))
         return status;
+    progress_stage(influence->progress, from + LOCAL_DONE * share, n);
     if (parts->local)
         add_weighted(influence, weights->wave, parts->local, rows);
     else
         status = influence_local(influence, solution->k0, weights->wave, rows);
     if (status == IGABEM_OK)
-        status = wave_rows(influence, solution, weights->wave, rows, change);
+        status = wave_rows(influence, solution, from, share, weights->wave, rows, change);
     return status;
 }
 
@@ -79,7 +85,7 @@ static igabem_status solve_rows(const struct influence *influence,
                                 igabem_solution *solution)
 {
     size_t n = influence->density->n;
-    const struct matrix matrix = {n, 3 * n, rows, influence->threads};
+    const struct matrix matrix = {n, 3 * n, rows, influence->threads, influence->progress};
     double cutoff[FILTERS_MOST];
     size_t filters = filters_of(&solution->options, cutoff);
     solution->velocity = malloc(3 * n * sizeof *solution->velocity);
@@ -109,13 +115,14 @@ static void fill_weights(const igabem_solution *solution, const struct weights *
 }
 
 igabem_status setting_solve(const struct influence *influence, const struct parts *parts,
-                            struct progress *progress, double fraction, igabem_solution *solution)
+                            double share, igabem_solution *solution)
 {
     size_t n = influence->density->n;
     if (!formulation_solves(&solution->options)) {
         solution_normal_flow(solution, solution->sigma);
         return density_interpolate(solution->density, 1, solution->sigma);
     }
+    double from = influence->progress ? influence->progress->done : 0.0;
     size_t arrays = 3; /* n^2 doubles each */
     arrays += 3 * ((size_t) !!parts->rankine + (size_t) !!parts->image + (size_t) !!parts->local);
     solution->memory = (double)(arrays * n * n * sizeof(double));
@@ -126,10 +133,11 @@ igabem_status setting_solve(const struct influence *influence, const struct part
     igabem_status status = rows && weight ? IGABEM_OK : solution_no_memory(n);
     if (status == IGABEM_OK) {
         fill_weights(solution, &weights);
-        status = fill_rows(influence, parts, progress, fraction, &weights, solution, rows, &change);
+        status = fill_rows(influence, parts, from, share, &weights, solution, rows, &change);
     }
     if (change)
         solution->memory += filter_change_memory(change);
+    progress_stage(influence->progress, from + share, n);
     if (status == IGABEM_OK)
         status = solve_rows(influence, change, rows, solution);
     free(weight);

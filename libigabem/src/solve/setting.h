@@ -4,7 +4,6 @@
 #define SETTING_H
 
 #include "influence/influence.h"
-#include "solve/progress.h"
 #include "solve/solution.h"
 
 /* Parts of the Green function that several settings share, [n][3][n]; all NULL for one setting,
@@ -14,8 +13,8 @@ struct parts {
     double local_k0; /* that local is for; 0: none */
 };
 
-/* Fills sigma, velocity and what qualifies them; fraction is done after the Rankine part. */
+/* Fills sigma, velocity and what qualifies them; share of the whole progress. */
 igabem_status setting_solve(const struct influence *influence, const struct parts *parts,
-                            struct progress *progress, double fraction, igabem_solution *solution);
+                            double share, igabem_solution *solution);
 
 #endif

@@ -36,9 +36,9 @@ igabem_status igabem_solve_many(const igabem_hull *hull, size_t n, const igabem_
         member && taken ? IGABEM_OK : igabem_fail(IGABEM_ERROR_MEMORY, "no memory to solve");
     for (size_t k = 0; k < n && status == IGABEM_OK; k++)
         status = solution_create(hull, &options[k], &solutions[k]);
-    struct progress progress = {NULL, NULL, 0.0};
+    struct progress progress = {.tell = NULL};
     if (n > 0)
-        progress = (struct progress){options[0].progress, options[0].progress_user_data, 0.0};
+        progress = (struct progress){.tell = options[0].progress, .user_data = options[0].progress_user_data};
     if (status == IGABEM_OK)
         status = solve_groups(n, solutions, member, taken, &progress);
     free(member);
