@@ -198,11 +198,15 @@ function(isohull_tool name)
                                                 "$ORIGIN/${ISOHULL_LIBDIR_FROM_BINDIR}")
   target_compile_definitions(${name}_tool PRIVATE TOOL_VERSION="${PROJECT_VERSION}")
   target_link_libraries(${name}_tool PRIVATE tool_common ${ARG_LIBRARIES} isohull_flags m)
-  # Man pages and completions of shells, from --help.
+  # Man pages and completions of shells, from --help, which a cross build asks its emulator for.
+  set(command $<TARGET_FILE:${name}_tool>)
+  if(CMAKE_CROSSCOMPILING)
+    set(command ${CMAKE_CROSSCOMPILING_EMULATOR} ${command})
+  endif()
   set(pages ${CMAKE_CURRENT_BINARY_DIR}/pages)
   add_custom_command(
     OUTPUT ${pages}/man1/${name}.1
-    COMMAND ${CMAKE_COMMAND} -DCOMMAND=$<TARGET_FILE:${name}_tool> -DNAME=${name}
+    COMMAND ${CMAKE_COMMAND} "-DCOMMAND=${command}" -DNAME=${name}
             -DVERSION=${PROJECT_VERSION} -DOUTPUT=${pages} -P ${PROJECT_SOURCE_DIR}/cmake/manpage.cmake
     DEPENDS ${name}_tool ${PROJECT_SOURCE_DIR}/cmake/manpage.cmake
     VERBATIM)
