@@ -31,6 +31,12 @@ static void field(const char *name, const char *type, size_t offset)
         _Static_assert(sizeof(((structure *)0)->name) == sizeof(int), "size of " #name);           \
         field(#name, "c_int", offsetof(structure, name));                                          \
     } while (0)
+/* A pointer to anything else. */
+#define A(structure, name)                                                                         \
+    do {                                                                                           \
+        _Static_assert(sizeof(((structure *)0)->name) == sizeof(void *), "size of " #name);        \
+        field(#name, "c_void_p", offsetof(structure, name));                                       \
+    } while (0)
 #define BEGIN(structure) printf("    \"%s\": (%zu, [\n", #structure, sizeof(structure))
 #define END              printf("    ]),\n")
 #define VALUE(name)      printf("    \"%s\": %d,\n", #name, (int)name)
@@ -157,6 +163,33 @@ static void print_bayesopt(void)
     P(bayesopt_options, constraint_upper);
     E(bayesopt_options, noise);
     E(bayesopt_options, strategy);
+    A(bayesopt_options, kind);
+    B(bayesopt_options, maximise);
+    A(bayesopt_options, names);
+    N(bayesopt_options, n_conditions);
+    A(bayesopt_options, conditions);
+    N(bayesopt_options, n_first);
+    P(bayesopt_options, first_x);
+    B(bayesopt_options, told_count);
+    N(bayesopt_options, n_objectives);
+    A(bayesopt_options, maximise_others);
+    END;
+    BEGIN(bayesopt_result);
+    D(bayesopt_result, f);
+    P(bayesopt_result, constraints);
+    P(bayesopt_result, gradient);
+    A(bayesopt_result, note);
+    B(bayesopt_result, transient);
+    B(bayesopt_result, outside);
+    END;
+    BEGIN(bayesopt_point);
+    U64(bayesopt_point, id);
+    E(bayesopt_point, state);
+    P(bayesopt_point, x);
+    D(bayesopt_point, f);
+    P(bayesopt_point, constraints);
+    A(bayesopt_point, note);
+    B(bayesopt_point, feasible);
     END;
 }
 
@@ -191,6 +224,14 @@ int main(void)
     VALUE(BAYESOPT_STRATEGY_AUTO);
     VALUE(BAYESOPT_STRATEGY_GLOBAL);
     VALUE(BAYESOPT_STRATEGY_LOCAL);
+    VALUE(BAYESOPT_KIND_REAL);
+    VALUE(BAYESOPT_KIND_LOG);
+    VALUE(BAYESOPT_KIND_INTEGER);
+    VALUE(BAYESOPT_KIND_CATEGORICAL);
+    VALUE(BAYESOPT_STATE_PENDING);
+    VALUE(BAYESOPT_STATE_DONE);
+    VALUE(BAYESOPT_STATE_FAILED);
+    VALUE(BAYESOPT_STATE_LOST);
     VALUE(BAYESOPT_NONE_FEASIBLE);
     printf("}\n");
     return 0;

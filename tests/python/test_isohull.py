@@ -259,6 +259,67 @@ class SearchTest(unittest.TestCase):
                 again.tell(id, 2)
 
 
+    def test_kinds_and_conditions(self):
+        search = bayesopt.Search([1, 1e-3, 0, 2], [6, 10, 2, 2], evaluations=40, initial=12, maximise=True,
+                                 kinds=["integer", "log", "categorical", "real"], names=["n", "a", "kind", "fixed"],
+                                 conditions="n * a <= 3", first=[[2, 0.5, 1, 2]])
+        for i, (id, x) in enumerate(search):
+            self.assertTrue(x[0] == round(x[0]) and x[2] in (0, 1, 2) and x[3] == 2 and x[0] * x[1] <= 3 + 1e-9)
+            if i == 0:
+                np.testing.assert_allclose(x, [2, 0.5, 1, 2], rtol=1e-12)
+            search.tell(id, x[0] - np.log10(x[1] / 0.1) ** 2 + (x[2] == 2))
+        x, f = search.best()
+        np.testing.assert_allclose(x[[0, 2]], [6, 2])
+        self.assertAlmostEqual(f, 7, 1)
+        first, total = search.sensitivity()
+        self.assertTrue(total[3] < 1e-6 and total[0] > 0.1)
+        told, mean, deviation = search.leave_one_out()
+        self.assertEqual(len(told), 40)
+        self.assertTrue((deviation > 0).all())
+        with self.assertRaisesRegex(Error, "m <= 3"):
+            bayesopt.Search([0], [1], conditions=["m <= 3"])
+        for wrong in (dict(kinds=["real"]), dict(names=["a"]), dict(maximise=[True, False])):
+            with self.assertRaises(ValueError):
+                bayesopt.Search([0, 0], [1, 1], **wrong)
+        with self.assertRaises(KeyError):
+            bayesopt.Search([0], [1], kinds=["whole"])
+
+    def test_several_objectives(self):
+        search = bayesopt.Search([0, 0], [1, 1], evaluations=30, initial=10, objectives=2, maximise=[False, True],
+                                 constraints=1)
+        for id, x in search:
+            search.tell(id, [x[0] ** 2 + x[1], -(1 - x[0]) ** 2 - x[1]], [0.2 - x[0]])
+        front = search.pareto()
+        self.assertGreater(len(front), 3)
+        values = np.array([p.f for p in front])
+        self.assertTrue((np.diff(values[:, 0]) > 0).all() and (np.diff(values[:, 1]) > 0).all())
+        self.assertTrue(all(p.feasible and p.constraints[0] <= 0 for p in front))
+        mean, _ = search.predict([front[0].x], outcome=2)
+        self.assertAlmostEqual(mean[0], front[0].f[1], 2)
+        with self.assertRaises(ValueError):
+            search.tell(1, 0.5)
+
+    def test_told_points(self):
+        search = bayesopt.Search([0, 0], [1, 1], evaluations=12, initial=6, told=True)
+        self.assertEqual(search.tell_point([0.5, 0.5], 1.0, gradient=[1, 0]), 1)
+        search.tell_point([1.5, 0.5], 3.0, outside=True)
+        with self.assertRaises(Error):
+            search.tell_point([1.5, 0.5], 3.0)
+        (id, x), = search.ask()
+        search.tell_failed(id, "no licence", transient=True)
+        self.assertEqual(search[-1].state, "lost")
+        self.assertEqual(search[-1].note, "no licence")
+        search.release(id)
+        (again, same), = search.ask()
+        self.assertEqual(again, id)
+        np.testing.assert_array_equal(x, same)
+        search.tell_failed(id, "folded")
+        self.assertEqual(search[2].state, "failed")
+        self.assertTrue(np.isnan(search[2].f))
+        with self.assertRaises(IndexError):
+            search[3]
+
+
 class Suite(unittest.TestCase):
     def test_version(self):
         self.assertRegex(version(), r"^\d+\.\d+\.\d+$")
