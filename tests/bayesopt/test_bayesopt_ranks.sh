@@ -5,7 +5,7 @@
 
 cat >shared.yaml <<'YAML'
 variables: [{name: a, lower: 0, upper: 1}, {name: b, lower: 0, upper: 1}]
-objective: {command: "sleep 0.1; awk 'BEGIN {{ print ({a} - 0.3)^2 + ({b} - 0.6)^2 }'"}
+objective: {command: "test -z $PMIX_RANK$OMPI_COMM_WORLD_RANK || exit 9; sleep 0.1; awk 'BEGIN {{ print ({a} - 0.3)^2 + ({b} - 0.6)^2 }'"}
 search: {evaluations: 24, initial: 10}
 YAML
 
@@ -34,6 +34,15 @@ if command -v mpirun >/dev/null && mpirun --version 2>/dev/null | grep -q 'Open 
         "$tool" run shared.yaml --store mpi.db --json >out 2>err || fail "mpirun: $(cat err)"
     all_once mpi.db
     [ "$(grep -c '"evaluations": 24' out)" -eq 1 ] || fail "reports under mpirun: $(cat out)"
+    # Evaluations that are MPI programs themselves.
+    cat >nested.yaml <<'YAML'
+variables: [{name: a, lower: 0, upper: 1}]
+objective: {command: "mpirun --oversubscribe -n 2 sh -c 'test $OMPI_COMM_WORLD_RANK -ne 1 || echo {a}'"}
+search: {evaluations: 4, initial: 2}
+YAML
+    OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe -n 2 \
+        "$tool" run nested.yaml --json >out 2>err || fail "mpirun within mpirun: $(cat err out)"
+    grep -q '"evaluations": 4' out || fail "mpirun within mpirun: $(cat out)"
 fi
 
 # A job of an array: asks, evaluates, tells, until nothing is left.

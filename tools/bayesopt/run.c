@@ -1,6 +1,7 @@
 /* run: minimise the result of an external command, several at a time. */
 #include "commands.h"
 #include "evaluate.h"
+#include "launcher.h"
 
 #include <math.h>
 #include <signal.h>
@@ -36,6 +37,7 @@ struct runner {
     struct umbridge model;              /* when the file has an objective.url */
     struct cli_progress progress;
     struct streak streak;
+    long rank;            /* among the processes of a launcher; -1: there is none */
     size_t told;          /* in this session */
     double heard;         /* when it last gave a sign of life */
     bool works;           /* some evaluation of the study has succeeded */
@@ -280,21 +282,6 @@ static bool report(const struct runner *r)
     return ok;
 }
 
-/* Number of this process among those that a launcher (mpirun, srun) started together; -1: none did.
- */
-static long rank(void)
-{
-    static const char *const variables[] = {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK",
-                                            "SLURM_PROCID"};
-    for (size_t i = 0; i < sizeof variables / sizeof *variables; i++) {
-        const char *text = getenv(variables[i]);
-        size_t number;
-        if (text && cli_parse_size(text, &number))
-            return (long)number;
-    }
-    return -1;
-}
-
 /* Whether another process holds a point of the store and has given a sign of life of late, which is
  * all that is known of processes on other hosts. */
 static bool others_work(struct runner *r)
@@ -333,9 +320,9 @@ static void tell_of_lost(const struct runner *r)
 static bool conclude(struct runner *r)
 {
     const struct timespec pause = {0, 100000000};
-    if (rank() > 0)
+    if (r->rank > 0)
         return true;
-    while (rank() == 0 && !interrupted && others_work(r))
+    while (r->rank == 0 && !interrupted && others_work(r))
         nanosleep(&pause, NULL);
     tell_of_lost(r);
     return report(r);
@@ -399,7 +386,7 @@ static int run_command(int argc, char **argv, const struct settings *table, stru
 
 int command_run(int argc, char **argv)
 {
-    struct runner r = {0};
+    struct runner r = {.rank = launcher_leave()};
     char *usage = NULL;
     size_t length;
     config_start(&r.config);
