@@ -10,7 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { RUNNER_TEXT = 20000, RUNNER_ARGUMENTS = 12 };
+enum { RUNNER_TEXT = 65536, RUNNER_ARGUMENTS = 12 };
 
 struct runner {
     char folder[120]; /* scratch, made by runner_open */

@@ -2,10 +2,12 @@
  * shipped Wigley hull: V = 4/9 L B T. And which designs the constraints allow. */
 #include "check.h"
 #include "core/constraints.h"
+#include "core/jobs.h"
 #include "core/objective.h"
 #include "core/problem.h"
 #include "shape_yaml.h"
 
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -183,6 +185,46 @@ static void test_allowed_designs(void)
     CU_ASSERT_EQUAL(ratio[2], 0.99);
 }
 
+/* Two designs at once have the figures that each has alone; one that is killed, and one that takes
+ * longer than it may, are designs that failed. */
+static void test_jobs(void)
+{
+    size_t modes = galv_model_modes(problem.model);
+    struct job *jobs = jobs_create(2, modes), *job;
+    CU_ASSERT_PTR_NOT_NULL_FATAL(jobs);
+    CU_ASSERT_PTR_NULL(jobs_wait(jobs, 2, 0));
+    double cw[2];
+    for (size_t i = 0; i < 2; i++) {
+        for (size_t k = 0; k < modes; k++)
+            jobs[i].u[k] = 0.2 * (double)i * galv_model_upper(problem.model)[k];
+        struct evaluation *e = &jobs[i].evaluation;
+        evaluation_start(i + 1, NULL, jobs[i].u, e);
+        evaluate(&problem, e, NULL, NULL);
+        CU_ASSERT_FALSE(e->failed);
+        cw[i] = e->cw;
+        evaluation_start(i + 1, NULL, jobs[i].u, e);
+        say_why(jobs_start(&problem, &jobs[i]));
+    }
+    for (int i = 0; i < 2; i++) {
+        job = jobs_wait(jobs, 2, 0);
+        CU_ASSERT_PTR_NOT_NULL_FATAL(job);
+        CU_ASSERT_PTR_EQUAL(job->evaluation.u, job->u);
+        CHECK_RELATIVE(job->evaluation.cw, cw[job - jobs], 1e-12);
+    }
+    say_why(jobs_start(&problem, &jobs[0]));
+    CU_ASSERT_EQUAL(kill(jobs[0].process, SIGKILL), 0);
+    job = jobs_wait(jobs, 2, 0);
+    CU_ASSERT_TRUE(job == &jobs[0] && job->evaluation.failed);
+    CU_ASSERT_PTR_NOT_NULL(strstr(job->evaluation.reason, "process: ended by signal 9"));
+    CU_ASSERT_TRUE(isnan(job->evaluation.cw));
+    say_why(jobs_start(&problem, &jobs[1]));
+    CU_ASSERT_EQUAL(kill(jobs[1].process, SIGSTOP), 0);
+    job = jobs_wait(jobs, 2, 0.1);
+    CU_ASSERT_TRUE(job == &jobs[1] && job->evaluation.failed);
+    CU_ASSERT_PTR_NOT_NULL(strstr(job->evaluation.reason, "process: not done after"));
+    jobs_free(jobs, 2);
+}
+
 /* The objective is the worst ratio of all models, and each of them is bounded at other speeds. */
 static void test_worst_of_models(void)
 {
@@ -288,6 +330,7 @@ static const struct check_case cases[] = {
     {"designs of latent points", test_designs},
     {"limits known before a hull is built", test_limits},
     {"hulls without their files", test_restored},
+    {"designs in processes of their own", test_jobs},
     {"designs that can be the best", test_allowed_designs},
     {"the worst of several models", test_worst_of_models},
     {"resistances as the objective", test_quantities},

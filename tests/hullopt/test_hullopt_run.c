@@ -399,8 +399,33 @@ static void test_damaged_database(void)
     CU_ASSERT_EQUAL(strncmp(text, "no database", 11), 0);
 }
 
+/* Every design of the budget once, however many are at work; not where one waits for the other. */
+static void test_jobs(void)
+{
+    char written[200], folder[200];
+    runner_configuration(&runner, "jobs.yaml", WIGLEY, 8, 5, "");
+    runner_path(&runner, "jobs.yaml", written, sizeof written);
+    runner_path(&runner, "jobs", folder, sizeof folder);
+    const char *const run[] = {"run", written, "--out", folder, "--jobs", "3", "--json", NULL};
+    CU_ASSERT_EQUAL(runner_run(&runner, run), 0);
+    json_t *summary = json_loads(runner.out, 0, NULL);
+    CU_ASSERT_EQUAL(json_integer_value(json_object_get(summary, "evaluations")), 13);
+    CU_ASSERT_EQUAL(json_integer_value(json_object_get(summary, "failed_designs")), 0);
+    json_decref(summary);
+    runner_path(&runner, "methods.yaml", written, sizeof written);
+    runner_path(&runner, "alone", folder, sizeof folder);
+    runner_write(&runner, "methods.yaml",
+                 "hull: " EXAMPLES_DIR "/hulls/wigley.json\nshape: " EXAMPLES_DIR
+                 "/wigley_shape.yaml\n"
+                 "grid: {sections: 21, girth: 9}\nlatent: {samples: 200}\n"
+                 "flow: {froude: 0.316}\nsolver: {formulation: hogner, tolerance: 1e-3}\n"
+                 "search: {method: cobyla, iterations: 3}\n");
+    check_refusal(run, 1, "--jobs 3: cobyla needs the value of each design before the next");
+}
+
 static const struct check_case cases[] = {
     {"a whole run", test_run},
+    {"several designs at once", test_jobs},
     {"summary", test_summary},
     {"hull files", test_hulls},
     {"report", test_report},

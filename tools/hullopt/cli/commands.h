@@ -11,6 +11,7 @@ struct options {
     bool resume;
     char *address; /* of a server, and its port */
     int port, jobs;
+    double timeout;              /* of one of several designs at once, s */
     double *latent, *parameters; /* of one design */
     size_t n_latent, n_parameters;
     char **folders; /* of the words, for a command that takes any number */

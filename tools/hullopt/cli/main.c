@@ -74,6 +74,10 @@ static const struct setting RUN[] = {
         "continue the run in DIR, or start it when there is none; nothing that was evaluated is "
         "lost or evaluated again, however the last session ended",
         .option = "resume"),
+    ROW(INTEGER, jobs, "designs evaluated at once, in processes of one thread each",
+        .option = "jobs", SETTING_FROM(1, 64), .otherwise = "1"),
+    ROW(NUMBER, timeout, "s after which one of several designs at once has failed; 0: never",
+        .option = "timeout", SETTING_FROM(0, 1e6), .otherwise = "0"),
     ROW(INTEGER, overrides.initial, "size of the initial design", .option = "initial",
         SETTING_FROM(2, 100000), .words = AS_CONFIGURED, .otherwise = "as configured"),
     ROW(INTEGER, overrides.iterations, "proposals after it", .option = "iterations",

@@ -131,8 +131,15 @@ int run_command(const struct options *options)
     struct problem problem;
     if (!config_read(options->path, &options->overrides, &config))
         return CLI_FAILED;
-    bool ok = say(problem_read(&config, &problem));
+    const struct method_row *method = method_row(config.method);
+    bool asks = method->kind == METHOD_GAUSSIAN_PROCESS || method->kind == METHOD_DESIGN;
+    bool ok = options->jobs == 1 || asks ||
+              cli_refuse("--jobs %d: %s needs the value of each design before the next",
+                         options->jobs, method->name);
+    ok = ok && say(problem_read(&config, &problem));
     if (ok) {
+        problem.jobs = (size_t)options->jobs;
+        problem.job_seconds = options->timeout;
         const nurbs_grid *grid = problem.grid;
         galv_shape *shape =
             shape_yaml_read(config.shape, nurbs_grid_rows(grid) * nurbs_grid_columns(grid),

@@ -4,6 +4,7 @@
 #include "core/constraints.h"
 #include "core/conventional.h"
 #include "core/descent.h"
+#include "core/jobs.h"
 #include "core/objective.h"
 
 #include <math.h>
@@ -113,11 +114,8 @@ void search_show(const struct search *s, const char *what)
 }
 
 /* Figures and value are told at once: a session that dies leaves a point that is asked again. */
-bool search_step(struct search *s, struct evaluation *e, evaluate_look look, void *user_data)
+static bool settle(struct search *s, struct evaluation *e)
 {
-    if (!core_goes_on(s->watch))
-        return false;
-    evaluate(s->problem, e, look, user_data);
     if (e->failed)
         core_tell(s->watch, "design %zu failed: %s", s->done, e->reason);
     if (!tell(s, e) || !record_update_session(s->record))
@@ -129,25 +127,64 @@ bool search_step(struct search *s, struct evaluation *e, evaluate_look look, voi
     return true;
 }
 
+bool search_step(struct search *s, struct evaluation *e, evaluate_look look, void *user_data)
+{
+    if (!core_goes_on(s->watch))
+        return false;
+    evaluate(s->problem, e, look, user_data);
+    return settle(s, e);
+}
+
+/* The next design of the library, started; *more false, with the reason on record, when there is
+ * none. */
+static bool ask(struct search *s, double *u, struct evaluation *e, bool *more)
+{
+    uint64_t id;
+    if (!core_goes_on(s->watch))
+        return false;
+    double start = cli_seconds();
+    bayesopt_status status = bayesopt_ask(s->record->bo, 1, u, &id);
+    *more = status == BAYESOPT_OK;
+    if (status > 0)
+        return record_put_text(s->record, "stop", bayesopt_status_string(status));
+    if (status < 0)
+        return core_fail("%s: %s", s->problem->config->path, bayesopt_last_error());
+    evaluation_start(id, NULL, u, e);
+    e->propose_seconds = cli_seconds() - start;
+    return true;
+}
+
 static bool loop(struct search *s, double *u)
 {
-    for (;;) {
-        uint64_t id;
-        struct evaluation e;
+    struct evaluation e;
+    for (bool more = true;;) {
         search_show(s, NULL);
-        if (!core_goes_on(s->watch))
-            return false;
-        double start = cli_seconds();
-        bayesopt_status status = bayesopt_ask(s->record->bo, 1, u, &id);
-        if (status > 0)
-            return record_put_text(s->record, "stop", bayesopt_status_string(status));
-        if (status < 0)
-            return core_fail("%s: %s", s->problem->config->path, bayesopt_last_error());
-        evaluation_start(id, NULL, u, &e);
-        e.propose_seconds = cli_seconds() - start;
+        if (!ask(s, u, &e, &more) || !more)
+            return !more;
         if (!search_step(s, &e, NULL, NULL))
             return false;
     }
+}
+
+/* Several at once. What is at work when the run is to stop is waited for. */
+static bool loop_jobs(struct search *s)
+{
+    struct problem *p = s->problem;
+    struct job *jobs = jobs_create(p->jobs, galv_model_modes(p->model)), *job = jobs;
+    bool ok = jobs || core_no_memory(), more = true;
+    while (job) {
+        for (size_t i = 0; i < p->jobs && ok && more; i++)
+            if (!jobs[i].process) {
+                ok = ask(s, jobs[i].u, &jobs[i].evaluation, &more);
+                ok = ok && (!more || jobs_start(p, &jobs[i]));
+            }
+        search_show(s, NULL);
+        job = jobs_wait(jobs, p->jobs, p->job_seconds);
+        if (job && !settle(s, &job->evaluation))
+            break;
+    }
+    jobs_free(jobs, p->jobs);
+    return ok && !job && !more;
 }
 
 static bool run_method(struct search *s, double *u)
@@ -157,7 +194,7 @@ static bool run_method(struct search *s, double *u)
     switch (method->kind) {
     case METHOD_GAUSSIAN_PROCESS:
     case METHOD_DESIGN:
-        return loop(s, u);
+        return s->problem->jobs > 1 ? loop_jobs(s) : loop(s, u);
     case METHOD_DESCENT:
         return descent_run(s, u);
     case METHOD_NLOPT:
