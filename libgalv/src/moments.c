@@ -156,13 +156,15 @@ static int evaluate(void *user_data, size_t npoints, const double *xyz, double *
     return 0;
 }
 
-galv_extra galv_moments_extra(galv_moment_set *set)
+galv_status galv_moments_extra(galv_moment_set *set, galv_extra *extra)
 {
-    if (!set)
-        return (galv_extra){.count = 0};
+    if (!set || !extra)
+        return galv_fail(GALV_ERROR_ARGUMENT, "NULL argument of galv_moments_extra");
     size_t count = galv_moments_count(set->order);
     if (set->section_stride && set->section_first < set->sections)
         count += (1 + (set->sections - 1 - set->section_first) / set->section_stride) *
                  section_count(set->section_order);
-    return (galv_extra){.count = count, .evaluate = evaluate, .user_data = set, .concurrent = true};
+    *extra =
+        (galv_extra){.count = count, .evaluate = evaluate, .user_data = set, .concurrent = true};
+    return GALV_OK;
 }

@@ -61,7 +61,8 @@ static bool extend(const struct arguments *a, galv_sampling sampling, galv_model
     const struct model_file *file = &a->file;
     galv_shape *shape = NULL;
     galv_moment_set set;
-    galv_extra extra = model_file_extra(file, &set);
+    galv_extra extra;
+    model_file_extra(file, &set, &extra);
     galv_options options;
     galv_options_init(&options);
     options.extra = extra.count ? &extra : NULL;

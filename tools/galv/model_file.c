@@ -309,10 +309,11 @@ static bool read_appended(struct reader *r, struct model_file *file)
                                   .section_first = newer_count(r, "section_first", 0),
                                   .section_stride = newer_count(r, "section_stride", 0)};
     galv_moment_set set;
+    galv_extra extra;
+    model_file_extra(file, &set, &extra);
     if (!r->wrong &&
         (file->set.order > 8 || file->set.section_order > 8 || file->rows > MOST_NUMBERS ||
-         model_file_extra(file, &set).count !=
-             galv_model_coordinates(file->model) - 3 * galv_model_points(file->model)))
+         extra.count != galv_model_coordinates(file->model) - 3 * galv_model_points(file->model)))
         r->wrong = "moments";
     return !r->wrong;
 }
@@ -394,13 +395,12 @@ void model_file_free(struct model_file *file)
     file->model = NULL;
 }
 
-galv_extra model_file_extra(const struct model_file *file, galv_moment_set *set)
+void model_file_extra(const struct model_file *file, galv_moment_set *set, galv_extra *extra)
 {
-    galv_extra extra = {.count = 0};
+    *extra = (galv_extra){.count = 0};
     *set = file->set;
     if (file->moments)
-        extra = galv_moments_extra(set);
-    extra.count += file->rows;
-    extra.given = file->rows;
-    return extra;
+        galv_moments_extra(set, extra);
+    extra->count += file->rows;
+    extra->given = file->rows;
 }

@@ -29,8 +29,8 @@ bool model_file_read(const char *path, struct model_file *file);
 void model_file_free(struct model_file *file);
 
 /* The appended quantities of the model, without values of those given per sample; count 0 without.
- * set: filled, must outlive the result. */
-galv_extra model_file_extra(const struct model_file *file, galv_moment_set *set);
+ * set: filled, must outlive extra. */
+void model_file_extra(const struct model_file *file, galv_moment_set *set, galv_extra *extra);
 
 const char *method_name(galv_method method);
 

@@ -37,7 +37,8 @@ static bool project(const struct model_file *file, double *d, double *u, double 
     const galv_model *model = file->model;
     size_t points = galv_model_points(model), length = galv_model_coordinates(model);
     galv_moment_set set;
-    galv_extra extra = model_file_extra(file, &set);
+    galv_extra extra;
+    model_file_extra(file, &set, &extra);
     double *back = malloc(length * sizeof *back), square = 0;
     if (!back)
         return cli_refuse("out of memory");

@@ -207,7 +207,7 @@ static bool append_quantities(struct reduction *r)
                               r->set.sections);
     }
     if (appends_moments(a))
-        r->extra = galv_moments_extra(&r->set);
+        galv_moments_extra(&r->set, &r->extra);
     r->extra.given = r->rows.columns;
     r->extra.values = r->rows.values;
     r->extra.count += r->extra.given;

@@ -52,9 +52,9 @@ typedef struct galv_moment_set {
     double reserved[8];     /**< 0: room for members of later releases */
 } galv_moment_set;
 
-/** The moments of a set as appended quantities. set: borrowed, must outlive the result. The weights
- * are left NULL. NULL: no quantities. */
-GALV_API galv_extra galv_moments_extra(galv_moment_set *set);
+/** The moments of a set as appended quantities, their weights left NULL. set: borrowed, must
+ * outlive them. GALV_ERROR_ARGUMENT for NULL. */
+GALV_API galv_status galv_moments_extra(galv_moment_set *set, galv_extra *extra);
 
 #ifdef __cplusplus
 }
