@@ -249,56 +249,54 @@ static bool search(struct run *run)
     return true;
 }
 
+static bool run_create(const struct gn_problem *problem, struct run *run)
+{
+    size_t n = problem->n;
+    *run = (struct run){.problem = problem, .x = calloc(4 * n, sizeof(double))};
+    bool ok = gn_model_create(problem, &run->model) && run->x;
+    if (run->x) {
+        run->trial = run->x + n;
+        run->step = run->x + 2 * n;
+        run->best = run->x + 3 * n;
+    }
+    struct gn_sample *samples[] = {&run->at, &run->candidate, &run->coarse, &run->moved};
+    for (size_t i = 0; i < sizeof samples / sizeof *samples; i++)
+        ok = sample_create(problem, samples[i]) && ok;
+    return ok;
+}
+
+static void run_free(struct run *run)
+{
+    sample_free(&run->at);
+    sample_free(&run->candidate);
+    sample_free(&run->coarse);
+    sample_free(&run->moved);
+    gn_model_free(&run->model);
+    free(run->x);
+}
+
 bool gn_run(const struct gn_problem *problem, double *x)
 {
-    struct run run = {.problem = problem};
-    size_t n = problem->n;
-    double *vectors = calloc(4 * n, sizeof *vectors);
-    bool ok = vectors && gn_model_create(problem, &run.model);
-    ok = sample_create(problem, &run.at) && ok;
-    ok = sample_create(problem, &run.candidate) && ok;
-    ok = sample_create(problem, &run.coarse) && ok;
-    ok = sample_create(problem, &run.moved) && ok;
-    if (ok) {
-        run.x = vectors;
-        run.trial = vectors + n;
-        run.step = vectors + 2 * n;
-        run.best = vectors + 3 * n;
-        ok = search(&run);
-        memcpy(x, run.best, n * sizeof *x);
-    }
-    sample_free(&run.at);
-    sample_free(&run.candidate);
-    sample_free(&run.coarse);
-    sample_free(&run.moved);
-    gn_model_free(&run.model);
-    free(vectors);
+    struct run run;
+    bool ok = run_create(problem, &run) && search(&run);
+    if (ok)
+        memcpy(x, run.best, problem->n * sizeof *x);
+    run_free(&run);
     return ok;
 }
 
 bool gn_at_parent(const struct gn_problem *p, struct gn_model *model)
 {
-    struct run run = {.problem = p};
-    double *vectors = calloc(2 * p->n, sizeof *vectors);
-    bool ok = vectors && gn_model_create(p, &run.model);
-    ok = sample_create(p, &run.at) && ok;
-    ok = sample_create(p, &run.coarse) && ok;
-    ok = sample_create(p, &run.moved) && ok;
-    if (ok) {
-        run.x = vectors;
-        run.trial = vectors + p->n;
-        ok = start(&run) && differentiate(&run) == GN_VALUED;
+    struct run run;
+    bool ok = run_create(p, &run) && start(&run) && differentiate(&run) == GN_VALUED;
+    if (ok) { /* it takes what it borrowed */
+        *model = run.model;
+        run.model = (struct gn_model){0};
+        run.at = (struct gn_sample){0};
+        run.x = NULL;
     }
-    sample_free(&run.coarse);
-    sample_free(&run.moved);
-    if (!ok) {
-        sample_free(&run.at);
-        gn_model_free(&run.model);
-        free(vectors);
-        return false;
-    }
-    *model = run.model;
-    return true;
+    run_free(&run);
+    return ok;
 }
 
 void gn_leave(struct gn_model *model)
