@@ -36,7 +36,11 @@ static bool set_texts(const struct config *config, size_t variables, struct cour
                                               "search.seed",    "latent.",
                                               "name",           NULL};
     char label[80];
-    snprintf(label, sizeof label, "%s, %zu variables", method_row(config->method)->name, variables);
+    const struct method_row *method = method_row(config->method);
+    bool forecast =
+        method->kind == METHOD_GAUSSIAN_PROCESS && config->design == CONFIG_DESIGN_FORECAST;
+    snprintf(label, sizeof label, "%s%s, %zu variables", method->name, forecast ? "-forecast" : "",
+             variables);
     r->label = strdup(label);
     r->group = without(config->text, own);
     r->problem = without(config->text, ways);

@@ -105,7 +105,7 @@ static const struct constraint TABLE[] = {
 enum { OWN = sizeof TABLE / sizeof *TABLE, ROWS = OWN + PARTICULARS };
 
 /* What a step that ends on a limit may be outside. */
-static const double ROUNDING = 1e-6;
+static const double ROUNDING = 2e-5;
 /* Grids are allowed to touch the centre plane. */
 static const double TOUCH = 1e-9;
 

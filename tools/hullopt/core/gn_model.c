@@ -225,7 +225,9 @@ static bool add_rows(const struct gn_model *model, nlopt_opt step, struct row *r
 {
     enum { LIMITS = 64 };
     const struct gn_problem *p = model->problem;
-    const double tolerance = 1e-6, known = 1e-9; /* of ratios; of limits that hold exactly */
+    /* NLopt returns the best of the points that keep their limits to this: one that is tighter than
+     * what SLSQP meets on bent limits gives the start back. */
+    const double tolerance = 1e-5;
     double each[LIMITS];
     bool ok = p->limits <= LIMITS;
     for (size_t m = 0; m < p->settings && ok; m++) {
@@ -235,7 +237,7 @@ static bool add_rows(const struct gn_model *model, nlopt_opt step, struct row *r
     if (ok && !isnan(p->pressure))
         ok = nlopt_add_inequality_constraint(step, pressure_limit, (void *)model, tolerance) > 0;
     for (size_t i = 0; i < p->limits && ok; i++)
-        each[i] = known;
+        each[i] = tolerance;
     if (ok && p->limits)
         ok = nlopt_add_inequality_mconstraint(step, (unsigned)p->limits, known_limits,
                                               (void *)model, each) > 0;
@@ -268,30 +270,50 @@ static double excess(const struct gn_model *model, double *x, double tau)
     return isnan(p->pressure) ? most : fmax(most, pressure_limit(n, x, NULL, (void *)model));
 }
 
+/* One try of SLSQP from d, which becomes a step that keeps the known limits and lowers the
+ * penalised objective below *least, if one is found. */
+static void descend(const struct gn_model *model, nlopt_opt step, double clear, double *least,
+                    double *x, double *limits, double *d)
+{
+    const double outside = 1e-4; /* a step that is no solution */
+    size_t n = model->problem->n;
+    double unused;
+    memcpy(x, d, n * sizeof *d);
+    double tau = worst(model, x), over = excess(model, x, tau);
+    x[n] = clear * tau;
+    x[n + 1] = over + clear - 1;
+    nlopt_optimize(step, x, &unused);
+    tau = worst(model, x);
+    over = excess(model, x, tau);
+    if (trespass(model, x, limits) > outside || !(tau + model->penalty * over < *least))
+        return;
+    *least = tau + model->penalty * over;
+    memcpy(d, x, n * sizeof *d);
+}
+
 double gn_model_minimise(const struct gn_model *model, double radius, double *d, double *broken)
 {
-    enum { EVALUATIONS = 400 };
-    const double outside = 1e-4; /* a step that is no solution */
-    /* tau starts clear of its rows: on them SLSQP may take its first step for its last. */
-    const double clear = 1.5;
+    enum { EVALUATIONS = 400, TRIES = 2 };
+    /* tau starts clear of its rows: on them SLSQP may take its first step for its last. It also
+     * stops early, and goes on when it is started again. */
+    static const double clear[TRIES] = {1.5, 1.05};
     const struct gn_problem *p = model->problem;
     size_t n = p->n + 2;
     nlopt_opt step = nlopt_create(NLOPT_LD_SLSQP, (unsigned)n);
     struct row *rows = malloc(p->settings * sizeof *rows);
-    double *x = calloc(2 * n + p->limits, sizeof *x), promised = NAN, least;
+    double *x = calloc(2 * n + p->limits, sizeof *x), promised = NAN, least = HUGE_VAL;
+    memset(d, 0, p->n * sizeof *d);
     if (step && rows && x && add_rows(model, step, rows)) {
         set_box(model, radius, step, x + n);
         nlopt_set_min_objective(step, objective, (void *)model);
         nlopt_set_xtol_rel(step, 1e-7);
         nlopt_set_maxeval(step, EVALUATIONS);
-        x[n - 2] = clear * worst(model, x);
-        x[n - 1] = clear * excess(model, x, x[n - 2] / clear);
-        x[n - 2] = clear * worst(model, x);
-        nlopt_optimize(step, x, &least);
-        if (trespass(model, x, x + 2 * n) <= outside) {
+        for (int k = 0; k < TRIES; k++)
+            descend(model, step, clear[k], &least, x, x + 2 * n, d);
+        if (least < HUGE_VAL) {
+            memcpy(x, d, p->n * sizeof *d);
             promised = worst(model, x);
             *broken = excess(model, x, promised);
-            memcpy(d, x, p->n * sizeof *d);
         }
     }
     nlopt_destroy(step);
