@@ -123,6 +123,41 @@ static void test_wedge(void)
     operator_free(&operator_);
 }
 
+/* Where the lines of the grid turn, at the bow, phi = y^2 has no phi_xx: through a spline that is
+ * smooth across the turn it would have 2 y slope/dx. */
+static void test_bow(void)
+{
+    const double slope = 0.3;
+    struct plain plain;
+    make_surface(24, slope, &plain);
+    const struct free_surface *surface = &plain.surface;
+    size_t nx = surface->nx, ny = surface->ny;
+    double *phi = calloc((nx + 1) * ny + 24, sizeof *phi);
+    CU_ASSERT_PTR_NOT_NULL_FATAL(phi);
+    for (size_t i = 1; i <= nx; i++)
+        for (size_t j = 0; j < ny; j++) {
+            double xi = (double)i + 0.5, y = free_surface_y(surface, xi, 2 * j + 1);
+            double along = free_surface_y(surface, xi + 0.25, 2 * j + 1) -
+                           free_surface_y(surface, xi - 0.25, 2 * j + 1);
+            double across =
+                free_surface_y(surface, xi, 2 * j + 2) - free_surface_y(surface, xi, 2 * j);
+            /* A quadratic spline's coefficient: the value less an eighth of second derivatives. */
+            phi[(i - 1) * ny + j] = y * y - along * along - 0.25 * across * across;
+        }
+    struct surface_operator operator_;
+    CU_ASSERT_EQUAL_FATAL(operator_create(surface, &operator_), IGABEM_OK);
+    for (size_t i = surface->bow - 2; i < surface->bow + 2; i++)
+        for (size_t j = 8; j < 14; j++) {
+            const struct sparse *second = &operator_.second;
+            double sum = 0.0, turn = 2.0 * free_surface_y(surface, (double)i, 2 * j + 1) * slope;
+            for (size_t l = second->start[i * ny + j]; l < second->start[i * ny + j + 1]; l++)
+                sum += second->value[l] * phi[second->column[l]];
+            CHECK_CLOSE(sum * surface->dx / turn, 0.0, 0.003);
+        }
+    operator_free(&operator_);
+    free(phi);
+}
+
 /* The phase error is of order 4: by 16 from one grid to that of half the cells. */
 static void test_order(void)
 {
@@ -137,6 +172,6 @@ static void test_order(void)
 }
 
 static const struct check_case cases[] = {
-    {"plane", test_plane}, {"wedge", test_wedge}, {"order", test_order}};
+    {"plane", test_plane}, {"wedge", test_wedge}, {"bow", test_bow}, {"order", test_order}};
 
 CHECK_MAIN("dispersion", cases)

@@ -77,6 +77,10 @@ static void test_thin_wigley(void)
     options.formulation = IGABEM_FORMULATION_NEUMANN_KELVIN;
     igabem_solution *kelvin = solve(hull, &options);
     CHECK_RELATIVE(forces.cw, forces_of(kelvin).cw, 0.02);
+    /* Their own momentum gives the same. */
+    CHECK_RELATIVE(forces.cw_pressure - 2.0 * forces.cw_run_up, forces.cw, 0.06);
+    CHECK_RELATIVE(forces_of(kelvin).cw_pressure - 2.0 * forces_of(kelvin).cw_run_up,
+                   forces_of(kelvin).cw, 5e-3);
     /* The waterline is an edge of both spaces: one potential, one elevation. */
     double x = 0.113, y = 0.01 * (1.0 - 4.0 * x * x) + 1e-9, zeta, velocity[3];
     const double uv[2] = {0.5 + x, 0.0};

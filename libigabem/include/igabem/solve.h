@@ -93,7 +93,8 @@ typedef struct igabem_options {
     double surface_cells;      /**< cells along the hull; 48, over a submerged one 24 */
     double surface_rows;       /**< rows of cells from the hull outwards; a third of those */
     double surface_first;      /**< width of the first row as a share of a cell's length, at least
-                                  1.25 times the waterline's slope; 1 */
+                                  1.25 times the waterline's slope; 0.5, 1.3 times that slope if
+                                  that is more, over a submerged hull 1 */
     double surface_damping;    /**< factor of the least damping of short waves across the stream
                                   (theory.md, section 12), at least 1e-6; 1 */
     double surface_upstream;   /**< extent ahead of the hull as a share of its length; 0.5, over a
@@ -156,7 +157,9 @@ typedef struct igabem_forces {
     double cw_l2;               /**< rw / (rho U^2 L^2 / 2) */
     double cw_pressure;         /**< by integrating the pressure over the hull */
     double cw_pressure_linear;  /**< the same without the quadratic and run-up terms */
-    double cw_run_up;           /**< part of cw_pressure from the strip between water and wave */
+    double cw_run_up;  /**< part of cw_pressure from the strip between water and wave. The momentum
+                          of the linear problem (neumann-kelvin, exterior) says cw = cw_pressure -
+                          2 cw_run_up + cw_transom (docs/theory.md, section 7) */
     double cw_transom; /**< what a dry transom adds to cw_pressure: the hydrostatic pressure
                           that is missing on it; NAN without an open transom */
     double cw_cutoff_lower,

@@ -50,114 +50,176 @@ static void fill_across(struct across *across)
     convolve(spline_along[1], DIFFERENCE, sixth, across->first_sixth);
 }
 
-/* Whether the inner edge of a cell is the hull's or that of the strip aft of its transom. */
-static bool is_beside(const struct free_surface *surface, size_t i)
+/* Where a cell lies. The lines of the grid turn at bow and stern. */
+enum zone { AHEAD, BESIDE, AFT };
+
+static enum zone zone_of(const struct free_surface *surface, long i)
 {
-    return surface->waterline.n > 0 && i >= surface->bow &&
-           (i < surface->stern || surface->transom > 0);
+    if (!surface->waterline.n || i < (long)surface->bow)
+        return AHEAD;
+    return i < (long)surface->stern ? BESIDE : AFT;
+}
+
+/* What factors of the unknowns are added to: a row, or a sum of factors times the unknowns. */
+struct target {
+    const struct free_surface *surface;
+    double *row;
+    const double *phi; /* NULL: the row */
+    double sum;
+};
+
+static void add_unknown(struct target *target, long column, double factor)
+{
+    if (target->phi)
+        target->sum += factor * target->phi[column];
+    else
+        target->row[column] += factor;
 }
 
 /* Adds factor times the coefficient along the waterline of the spline through the hull's phi at the
  * middles of the cells, which are the columns after those of the unknowns. */
-static void add_edge(const struct free_surface *surface, long i, double factor, double *row)
+static void add_edge(struct target *target, long i, double factor)
 {
+    const struct free_surface *surface = target->surface;
     long bow = (long)surface->bow, stern = (long)surface->stern;
-    double *edge = row + surface->nx * surface->ny - bow;
+    long edge = (long)(surface->nx * surface->ny) - bow;
     if (i == bow || i == stern - 1) {
-        edge[i] += factor;
+        add_unknown(target, edge + i, factor);
         return;
     }
-    edge[i - 1] -= 0.125 * factor;
-    edge[i] += 1.25 * factor;
-    edge[i + 1] -= 0.125 * factor;
+    add_unknown(target, edge + i - 1, -0.125 * factor);
+    add_unknown(target, edge + i, 1.25 * factor);
+    add_unknown(target, edge + i + 1, -0.125 * factor);
 }
 
-/* Adds factor times the coefficient of cell (i, j), which may lie beyond the edges of the grid, as
- * seen from a cell beside the body or not, to a row over the unknowns. */
-static void add_coefficient(const struct free_surface *surface, bool beside, long i, long j,
-                            double factor, double *row)
+/* Adds factor times the coefficient of cell (i, j), which may lie beyond the edges of the grid. */
+static void add_coefficient(struct target *target, long i, long j, double factor)
 {
-    long ny = (long)surface->ny;
+    const struct free_surface *surface = target->surface;
+    long ny = (long)surface->ny, at = (i - 1) * ny;
+    enum zone zone = zone_of(surface, i);
     if (factor == 0.0)
         return;
     if (i < 1) {
         /* Linear upstream. */
-        add_coefficient(surface, beside, 1, j, (double)(2 - i) * factor, row);
-        add_coefficient(surface, beside, 2, j, (double)(i - 1) * factor, row);
-        return;
-    }
-    double *at = row + (i - 1) * ny;
-    bool hull = beside && i >= (long)surface->bow && i < (long)surface->stern;
-    if (j < 0 && beside && i >= (long)surface->stern && surface->transom > 0) {
-        at[0] += (double)(1 - j) * factor;
-        at[1] += (double)j * factor;
-    } else if (j < 0 && !hull) {
-        at[-1 - j] += factor;
+        add_coefficient(target, 1, j, (double)(2 - i) * factor);
+        add_coefficient(target, 2, j, (double)(i - 1) * factor);
+    } else if (j < 0 && zone == AFT && surface->transom > 0) {
+        add_unknown(target, at, (double)(1 - j) * factor);
+        add_unknown(target, at + 1, (double)j * factor);
+    } else if (j < 0 && zone != BESIDE) {
+        add_unknown(target, at - 1 - j, factor);
     } else if (j < 0) {
         /* Through the hull's phi at the edge: c_-1 = 2 e - c_0; beyond it a parabola. */
         double m = (double)(-1 - j), last_factor = factor * (1.0 + m + 0.5 * m * (m + 1.0));
-        at[0] -= factor * m * (m + 2.0) + last_factor;
-        at[1] += factor * 0.5 * m * (m + 1.0);
-        add_edge(surface, i, 2.0 * last_factor, row);
+        add_unknown(target, at, -(factor * m * (m + 2.0) + last_factor));
+        add_unknown(target, at + 1, factor * 0.5 * m * (m + 1.0));
+        add_edge(target, i, 2.0 * last_factor);
     } else if (j >= ny) {
-        at[ny - 1] += (double)(j - ny + 2) * factor;
-        at[ny - 2] -= (double)(j - ny + 1) * factor;
+        add_unknown(target, at + ny - 1, (double)(j - ny + 2) * factor);
+        add_unknown(target, at + ny - 2, -(double)(j - ny + 1) * factor);
     } else {
-        at[j] += factor;
+        add_unknown(target, at + j, factor);
     }
 }
 
-/* Adds the product of two stencils about cell (i, j). */
-static void add_product(const struct free_surface *surface, bool beside, size_t i, size_t j,
-                        const double a[ALONG], const double b[ACROSS], double factor, double *row)
-{
-    for (long k = 0; k < ALONG; k++)
-        for (long l = 0; l < ACROSS; l++)
-            add_coefficient(surface, beside, (long)i + k - 2, (long)j + l - ACROSS / 2,
-                            factor * a[k] * b[l], row);
-}
-
-/* Derivatives of eta(x, y) at the middle of cell (i, j), and dy/deta. */
+/* Derivatives of eta(x, y) at the middle of the first (place 0), middle or last line of cell
+ * (i, j), from within the cell, and dy/deta. */
 struct lines {
-    double ex, exx, ye;
+    double ex, exx, exe, ye;
 };
 
-static struct lines lines_at(const struct free_surface *surface, size_t i, size_t j)
+static struct lines lines_at(const struct free_surface *surface, size_t i, size_t j, size_t place)
 {
-    double y[3][3], dx = surface->dx;
+    static const double first[3][3] = {{-3.0, 4.0, -1.0}, {-1.0, 0.0, 1.0}, {1.0, -4.0, 3.0}};
+    double y[3][3], dx = surface->dx, yx[3] = {0.0, 0.0, 0.0};
     for (size_t a = 0; a < 3; a++)
-        for (size_t b = 0; b < 3; b++)
+        for (size_t b = 0; b < 3; b++) {
             y[a][b] = free_surface_y(surface, (double)i + 0.5 * (double)a, 2 * j + b);
-    double ye = y[1][2] - y[1][0], yee = 4.0 * (y[1][2] - 2.0 * y[1][1] + y[1][0]);
-    double yx = -(y[2][1] - y[0][1]) / dx;
+            yx[b] -= first[place][a] * y[a][b] / dx;
+        }
+    const double *at = y[place];
+    double ye = at[2] - at[0], yee = 4.0 * (at[2] - 2.0 * at[1] + at[0]), yxe = yx[2] - yx[0];
     double yxx = 4.0 * (y[2][1] - 2.0 * y[1][1] + y[0][1]) / (dx * dx);
-    double yxe = -(y[2][2] - y[2][0] - y[0][2] + y[0][0]) / dx;
-    double ex = -yx / ye;
-    return (struct lines){ex, -(yxx + 2.0 * ex * yxe + ex * ex * yee) / ye, ye};
+    double ex = -yx[1] / ye;
+    return (struct lines){ex, -(yxx + 2.0 * ex * yxe + ex * ex * yee) / ye, -(yxe + ex * yee) / ye,
+                          ye};
+}
+
+/* Adds slope times J and bend times K of row j, the jumps of F_xi and F_xi,xi over (xi, eta) at the
+ * line i where those of the grid turn. phi_x and phi_xx have none:
+ *     [F_x]  = -[eta_x] F_eta,
+ *     [F_xx] = -2 [eta_x] F_x,eta + (sum of eta_x) [eta_x]_eta F_eta - [eta_xx] F_eta
+ * with the mean of F_x,eta. */
+static void add_jump(struct target *target, size_t i, size_t j, double slope, double bend)
+{
+    const struct free_surface *surface = target->surface;
+    struct lines a = lines_at(surface, i - 1, j, 2), b = lines_at(surface, i, j, 0);
+    double dx = surface->dx, ex = b.ex - a.ex;
+    double plain =
+        slope * dx * ex + bend * dx * dx * ((a.ex + b.ex) * (b.exe - a.exe) - (b.exx - a.exx));
+    double mixed = bend * 2.0 * dx * ex;
+    for (long l = 0; l < ALONG; l++) {
+        double d = spline_along[1][l];
+        add_coefficient(target, (long)i - 1, (long)j + l - 2, (0.5 * plain - mixed) * d);
+        add_coefficient(target, (long)i, (long)j + l - 2, (0.5 * plain + mixed) * d);
+    }
+}
+
+/* The coefficient of cell (i, j) that F continued from a zone would have. */
+static void add_seen(struct target *target, enum zone from, long i, long j, double factor)
+{
+    const struct free_surface *surface = target->surface;
+    enum zone zone = zone_of(surface, i);
+    if (zone == from || i < 0 || factor == 0.0) {
+        add_coefficient(target, i, j, factor);
+        return;
+    }
+    bool mirror = j < 0 && from != BESIDE && !(from == AFT && surface->transom > 0);
+    long row = mirror ? -1 - j : j;
+    size_t line = from == AHEAD || zone == AHEAD ? surface->bow : surface->stern;
+    double t = (double)i + 0.5 - (double)line, side = from < zone ? 1.0 : -1.0, sign = 1.0;
+    if (row < 0 && (zone == AHEAD || surface->transom == 0)) {
+        sign = -1.0;
+        row = -1 - row;
+    }
+    add_coefficient(target, i, mirror ? -1 - j : j, factor);
+    add_jump(target, line, (size_t)fmin(fmax(0.0, (double)row), (double)surface->ny - 1.0),
+             -sign * factor * fabs(t), -sign * side * 0.5 * factor * (t * t - 0.25));
+}
+
+/* Adds the product of two stencils about cell (i, j). */
+static void add_product(struct target *target, size_t i, size_t j, const double a[ALONG],
+                        const double b[ACROSS], double factor)
+{
+    enum zone from = zone_of(target->surface, (long)i);
+    for (long k = 0; k < ALONG; k++)
+        for (long l = 0; l < ACROSS; l++)
+            add_seen(target, from, (long)i + k - 2, (long)j + l - ACROSS / 2, factor * a[k] * b[l]);
 }
 
 /* phi_xx at the middle of cell (i, j), F over (x, eta):
  *     phi_xx = F_xx + 2 eta_x F_x,eta + eta_x^2 F_eta,eta + eta_xx F_eta. */
-static void second_row(const struct free_surface *surface, const struct across *across, bool beside,
-                       size_t i, size_t j, double *row)
+static void second_row(struct target *target, const struct across *across, size_t i, size_t j)
 {
-    const struct lines at = lines_at(surface, i, j);
+    const struct free_surface *surface = target->surface;
+    const struct lines at = lines_at(surface, i, j, 1);
     const double(*d)[ALONG] = i + 1 < surface->nx ? spline_along : spline_last, dx = surface->dx;
-    add_product(surface, beside, i, j, d[2], across->value, 1.0 / (dx * dx), row);
-    add_product(surface, beside, i, j, d[1], across->first, -2.0 * at.ex / dx, row);
-    add_product(surface, beside, i, j, d[0], across->second, at.ex * at.ex, row);
-    add_product(surface, beside, i, j, d[0], across->first, at.exx, row);
+    add_product(target, i, j, d[2], across->value, 1.0 / (dx * dx));
+    add_product(target, i, j, d[1], across->first, -2.0 * at.ex / dx);
+    add_product(target, i, j, d[0], across->second, at.ex * at.ex);
+    add_product(target, i, j, d[0], across->first, at.exx);
 }
 
 /* -2 mu phi_x over sqrt(k0), of the sixth difference across. */
-static void odd_row(const struct free_surface *surface, const struct across *across, bool beside,
-                    size_t i, size_t j, double *row)
+static void odd_row(struct target *target, const struct across *across, size_t i, size_t j)
 {
-    const struct lines at = lines_at(surface, i, j);
+    const struct free_surface *surface = target->surface;
+    const struct lines at = lines_at(surface, i, j, 1);
     const double(*d)[ALONG] = i + 1 < surface->nx ? spline_along : spline_last;
     const double twice = 1.0 / (64.0 * sqrt(PI * at.ye));
-    add_product(surface, beside, i, j, d[1], across->value_sixth, twice / surface->dx, row);
-    add_product(surface, beside, i, j, d[0], across->first_sixth, -twice * at.ex, row);
+    add_product(target, i, j, d[1], across->value_sixth, twice / surface->dx);
+    add_product(target, i, j, d[0], across->first_sixth, -twice * at.ex);
 }
 
 igabem_status operator_create(const struct free_surface *surface, struct surface_operator *result)
@@ -170,15 +232,15 @@ igabem_status operator_create(const struct free_surface *surface, struct surface
                                         .second.start = calloc(n + 1, sizeof(size_t)),
                                         .odd.start = calloc(n + 1, sizeof(size_t))};
     double *row = calloc(columns, sizeof *row);
+    struct target target = {.surface = surface, .row = row};
     bool complete = result->value.start && result->second.start && result->odd.start && row;
     for (size_t c = 0; c < n && complete; c++) {
         size_t i = c / ny, j = c % ny;
-        bool beside = is_beside(surface, i);
-        add_product(surface, beside, i, j, spline_along[0], across.value, 1.0, row);
+        add_product(&target, i, j, spline_along[0], across.value, 1.0);
         complete = sparse_append(&result->value, columns, row, &room[0]);
-        second_row(surface, &across, beside, i, j, row);
+        second_row(&target, &across, i, j);
         complete = complete && sparse_append(&result->second, columns, row, &room[1]);
-        odd_row(surface, &across, beside, i, j, row);
+        odd_row(&target, &across, i, j);
         complete = complete && sparse_append(&result->odd, columns, row, &room[2]);
     }
     free(row);
@@ -210,45 +272,21 @@ igabem_status operator_edge(const struct free_surface *surface, const struct den
     return status;
 }
 
-/* A coefficient, by the same rules as in the operator. */
-static double coefficient(const struct free_surface *surface, bool beside, long i, long j,
-                          const double *phi)
-{
-    long ny = (long)surface->ny, bow = (long)surface->bow, stern = (long)surface->stern;
-    if (i < 1)
-        return (double)(2 - i) * coefficient(surface, beside, 1, j, phi) +
-               (double)(i - 1) * coefficient(surface, beside, 2, j, phi);
-    const double *at = phi + (i - 1) * ny;
-    if (j >= ny)
-        return 2.0 * at[ny - 1] - at[ny - 2];
-    if (j >= 0)
-        return at[j];
-    if (beside && i >= stern && surface->transom > 0)
-        return 2.0 * at[0] - at[1];
-    if (!beside || i < bow || i >= stern)
-        return at[0];
-    const double *edge = phi + surface->nx * surface->ny - bow;
-    double bend = i == bow || i == stern - 1 ? 0.0 : edge[i - 1] - 2.0 * edge[i] + edge[i + 1];
-    return 2.0 * (edge[i] - 0.125 * bend) - at[0];
-}
-
 double operator_slope(const struct free_surface *surface, const struct free_surface_place *place,
                       const double *phi)
 {
     double i = fmin(floor(place->xi), (double)surface->nx - 1.0);
     double j = fmin(floor(place->eta), (double)surface->ny - 1.0);
-    double u[3], du[3], v[3], dv[3], along_xi = 0.0, along_eta = 0.0;
-    bool beside =
-        surface->waterline.n > 0 && i >= (double)surface->bow && i < (double)surface->stern;
+    double u[3], du[3], v[3], dv[3];
+    struct target slope = {.surface = surface, .phi = phi};
+    enum zone from = zone_of(surface, (long)i);
     spline_evaluate(place->xi - i, u, du);
     spline_evaluate(place->eta - j, v, dv);
     for (int a = 0; a < 3; a++)
-        for (int b = 0; b < 3; b++) {
-            double c = coefficient(surface, beside, (long)i + a - 1, (long)j + b - 1, phi);
-            along_xi += du[a] * v[b] * c;
-            along_eta += u[a] * dv[b] * c;
-        }
-    return -along_xi / surface->dx + place->eta_x * along_eta;
+        for (int b = 0; b < 3; b++)
+            add_seen(&slope, from, (long)i + a - 1, (long)j + b - 1,
+                     place->eta_x * u[a] * dv[b] - du[a] * v[b] / surface->dx);
+    return slope.sum;
 }
 
 void operator_fold(const struct free_surface *surface, double *coefficients, double *scratch)

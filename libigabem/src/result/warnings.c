@@ -17,7 +17,7 @@ static const double fewest_per_wave = 8.0;
 static const double least_froude = 0.1, most_froude = 1.0;
 static const double most_trim = 3.0, degree = 180 / PI;
 static const double most_sinkage = 0.01; /* of the length */
-static const double most_gap = 0.5, most_gap_submerged = 0.01;
+static const double most_gap = 0.5, most_momentum_gap = 0.25, most_gap_submerged = 0.01;
 
 struct subject {
     const igabem_hull_info *info;
@@ -131,9 +131,34 @@ static bool strange_attitude(const struct subject *s, struct sentence *sentence)
                100.0 * sinkage, trim);
 }
 
+/* Whether its own momentum must give C_w (docs/theory.md, section 7): what is solved is the linear
+ * problem at the surface and nothing else. */
+static bool conserves_momentum(const struct subject *s)
+{
+    const igabem_formulation_row *row = s->solution->formulation;
+    return s->solution->waves && s->info->surface_piercing &&
+           (row->potential || (row->kelvin_rows && row->line_term && !row->stern_rows &&
+                               s->solution->options.line_term));
+}
+
+static bool momentum_gap(const struct subject *s, struct sentence *sentence)
+{
+    if (!s->forces || !conserves_momentum(s))
+        return false;
+    double transom = isfinite(s->forces->cw_transom) ? s->forces->cw_transom : 0.0;
+    double a = s->forces->cw, b = s->forces->cw_pressure - 2.0 * s->forces->cw_run_up + transom;
+    return fabs(a - b) > most_momentum_gap * fmax(a, b) &&
+           say(sentence,
+               "C_w by Kochin function (%.3g) and by the momentum of the same solution (%.3g, "
+               "pressure less twice the run-up) differ by more than a quarter of the larger: "
+               "believe neither without a refinement",
+               a, b);
+}
+
 static bool negative_pressure(const struct subject *s, struct sentence *sentence)
 {
-    return s->forces && s->solution->waves && s->forces->cw_pressure < 0 &&
+    return s->forces && s->solution->waves && !conserves_momentum(s) &&
+           s->forces->cw_pressure < 0 &&
            say(sentence,
                "C_w by pressure is below zero (%.3g, by Kochin function %.3g): not resolved, "
                "refine along the hull",
@@ -144,7 +169,8 @@ static bool negative_pressure(const struct subject *s, struct sentence *sentence
  * error. */
 static bool pressure_gap(const struct subject *s, struct sentence *sentence)
 {
-    if (!s->forces || !(s->forces->cw_pressure >= 0) || !isfinite(s->forces->cw))
+    if (!s->forces || !(s->forces->cw_pressure >= 0) || !isfinite(s->forces->cw) ||
+        conserves_momentum(s))
         return false;
     double a = s->forces->cw, b = s->forces->cw_pressure, gap = fabs(b / a - 1.0);
     if (s->info->surface_piercing)
@@ -161,8 +187,9 @@ static bool pressure_gap(const struct subject *s, struct sentence *sentence)
 }
 
 static bool (*const checks[])(const struct subject *subject, struct sentence *sentence) = {
-    closed_transom, steep_end,        full_bow,          strange_length, coarse_mesh,
-    strange_speed,  strange_attitude, negative_pressure, pressure_gap,   coarse_surface,
+    closed_transom, steep_end,     full_bow,         strange_length,
+    coarse_mesh,    strange_speed, strange_attitude, negative_pressure,
+    pressure_gap,   momentum_gap,  coarse_surface,
 };
 
 static const char *find(const struct subject *subject, size_t number)

@@ -209,8 +209,10 @@ static void choose_surface(const igabem_hull *hull, igabem_options *options)
         options->surface_cells = hull->surface_piercing ? 48.0 : 24.0;
     if (options->surface_rows == 0.0)
         options->surface_rows = fmax(4.0, round(options->surface_cells / 3.0));
-    if (options->surface_first == 0.0)
-        options->surface_first = 1.0;
+    if (options->surface_first == 0.0) {
+        double slope = hull->nu_s / sqrt(fmax(0.1, 1.0 - hull->nu_s * hull->nu_s));
+        options->surface_first = hull->surface_piercing ? fmax(0.5, 1.3 * slope) : 1.0;
+    }
     if (options->surface_damping == 0.0)
         options->surface_damping = 1.0;
     if (options->surface_upstream == 0.0)
