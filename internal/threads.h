@@ -18,7 +18,8 @@ struct threads {
  * of fork() whose parent had started several: GNU OpenMP would wait there for threads that the
  * child does not have. */
 #define THREADS(wanted)                                                                            \
-    __attribute__((cleanup(threads_restore))) struct threads threads_before = threads_enter(wanted)
+    __attribute__((cleanup(threads_restore), unused)) struct threads threads_before =              \
+        threads_enter(wanted)
 
 struct threads threads_enter(int wanted);
 void threads_restore(const struct threads *before);
