@@ -760,6 +760,13 @@ module igabem_c
       real(c_double), intent(in), optional :: x(*)
       real(c_double), intent(inout), optional :: share(*)
     end function
+    integer(c_int) function igabem_free_surface_grid(solution, size, x, y) bind(c)
+      import
+      type(c_ptr), value :: solution
+      integer(c_size_t), intent(inout), optional :: size(2)
+      real(c_double), intent(inout), optional :: x(*)
+      real(c_double), intent(inout), optional :: y(*)
+    end function
     integer(c_int) function igabem_wave_cut(solution, y, cw) bind(c)
       import
       type(c_ptr), value :: solution

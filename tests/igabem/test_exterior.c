@@ -194,6 +194,22 @@ static void test_transom(void)
         double x = -1e-9, y = 0.02, zeta;
         CU_ASSERT_EQUAL(igabem_wave_elevation(solution, 1, &x, &y, &zeta), IGABEM_OK);
         CHECK_CLOSE(zeta, -0.03, 1e-6);
+        /* The grid that was solved, over the strip and beside it. */
+        size_t size[2];
+        CU_ASSERT_EQUAL(igabem_free_surface_grid(solution, size, NULL, NULL), IGABEM_OK);
+        size_t n = size[0] * size[1], wet = 0;
+        double *nodes = malloc(3 * n * sizeof *nodes);
+        CU_ASSERT_PTR_NOT_NULL_FATAL(nodes);
+        CU_ASSERT_EQUAL(igabem_free_surface_grid(solution, size, nodes, nodes + n), IGABEM_OK);
+        CU_ASSERT_EQUAL(igabem_wave_elevation(solution, n, nodes, nodes + n, nodes + 2 * n),
+                        IGABEM_OK);
+        for (size_t m = 0; m < n; m++)
+            wet += isfinite(nodes[2 * n + m]) != 0;
+        /* 8 cells ahead, 16 beside, 16 aft: 15 lines through the water plane. */
+        size_t columns = k ? 8 : 4;
+        CU_ASSERT_EQUAL(size[0], 41);
+        CU_ASSERT_EQUAL(wet, n - 15 * columns);
+        free(nodes);
         /* The full-depth transom carries more than the waves do. */
         CU_ASSERT_TRUE(forces.cw > 0 && forces.cw_transom > 0);
         igabem_solution_free(solution);

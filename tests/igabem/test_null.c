@@ -138,6 +138,10 @@ static void results(void)
     REFUSED(igabem_wave_shares(NULL, 1, one, out));
     REFUSED(igabem_wave_shares(solution, 1, NULL, out));
     REFUSED(igabem_wave_shares(solution, 1, one, NULL));
+    size_t size[2];
+    REFUSED(igabem_free_surface_grid(NULL, size, NULL, NULL));
+    REFUSED(igabem_free_surface_grid(solution, NULL, NULL, NULL));
+    REFUSED(igabem_free_surface_grid(solution, size, NULL, NULL));
     REFUSED(igabem_wave_cut(NULL, NAN, out));
     REFUSED(igabem_wave_cut(solution, NAN, NULL));
     igabem_solution_free(solution);

@@ -233,19 +233,25 @@ int solve_write_pressure(const igabem_solution *solution, const struct solve_run
 }
 
 static int wave_grid_make(const igabem_solution *solution, const struct solve_run *run,
-                          struct wave_grid *grid)
+                          bool picture, struct wave_grid *grid)
 {
     const struct solve_request *request = run->request;
     const double *box = request->waves_box;
     double length = run->info.length, fore = run->info.hydrostatics.x_fore;
-    *grid = (struct wave_grid){request->waves_grid[0], request->waves_grid[1], NULL, NULL, NULL};
+    size_t own[2];
+    /* A formulation with a grid of its own has solved nothing beyond it. */
+    bool solved = !picture && !igabem_free_surface_grid(solution, own, NULL, NULL);
+    *grid = solved ? (struct wave_grid){.nx = own[0], .ny = own[1]}
+                   : (struct wave_grid){.nx = request->waves_grid[0], .ny = request->waves_grid[1]};
     size_t n = grid->nx * grid->ny;
     grid->x = malloc(n * sizeof(double));
     grid->y = malloc(n * sizeof(double));
     grid->zeta = malloc(n * sizeof(double));
     if (!grid->x || !grid->y || !grid->zeta)
         return cli_fail("out of memory");
-    for (size_t i = 0; i < grid->nx; i++)
+    if (solved)
+        igabem_free_surface_grid(solution, own, grid->x, grid->y);
+    for (size_t i = 0; i < grid->nx && !solved; i++)
         for (size_t j = 0; j < grid->ny; j++) {
             double a = (double)i / (double)(grid->nx - 1), b = (double)j / (double)(grid->ny - 1);
             grid->x[i * grid->ny + j] = fore + length * (box[0] + (box[1] - box[0]) * a);
@@ -316,7 +322,7 @@ int solve_write_waves(const igabem_solution *solution, const struct solve_run *r
     if (!picture && !ends_with(path, ".csv") && !ends_with(path, ".vtu"))
         return cli_fail("--waves %s: expected a name that ends in .csv, .vtu, .svg, .png or .pdf",
                         path);
-    int code = wave_grid_make(solution, run, &grid);
+    int code = wave_grid_make(solution, run, picture, &grid);
     if (code == CLI_OK && picture)
         code = solve_draw_waves(run, &grid, path) ? CLI_OK : CLI_FAILED;
     else if (code == CLI_OK && !cli_file_open(&file, path))

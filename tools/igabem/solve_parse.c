@@ -126,7 +126,9 @@ static const struct setting ROWS[] = {
     ROW("vtu", TEXT, vtu,
         .sentence = "hull with velocity, pressure coefficient and source density"),
     ROW("waves", TEXT, waves,
-        .sentence = "wave elevation on a grid: .csv or .vtu, or its picture: .svg .png .pdf"),
+        .sentence =
+            "wave elevation on a grid (of exterior: its own): .csv or .vtu, or its picture: "
+            ".svg .png .pdf"),
     ROW("waves-grid", COUNT, waves_grid, .sentence = "points along and across",
         SETTING_FROM(2, 1e5), .n_least = 2, .n_most = 2),
     ROW("waves-box", NUMBER, waves_box,

@@ -230,6 +230,14 @@ IGABEM_API igabem_status igabem_kochin(const igabem_solution *solution, size_t n
 IGABEM_API igabem_status igabem_wave_shares(const igabem_solution *solution, size_t n,
                                             const double *x, double *share);
 
+/** Nodes of the free surface that a formulation with a potential has solved, y >= 0: size[0] lines
+ * from the one farthest ahead, size[1] nodes of each outwards, those over the strip aft of a dry
+ * transom first; x and y (m) of node (i, j) at i size[1] + j. The nodes of the strip lie inside the
+ * water plane, where igabem_wave_elevation() gives NAN, ahead of its beginning. x, y NULL: only
+ * size. Errors: IGABEM_ERROR_ARGUMENT: another formulation. */
+IGABEM_API igabem_status igabem_free_surface_grid(const igabem_solution *solution, size_t size[2],
+                                                  double *x, double *y);
+
 /** C_w from the waves along the line y = const beside a symmetric hull, given as a half or whole
  * (Eggers, Sharma and Ward 1967), m; NAN: a transverse wave length off the side. It holds a part of
  * the local disturbance of relative size e^{-k0 (y - B/2)}, and waves as filtered by the cut-off,
