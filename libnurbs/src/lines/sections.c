@@ -1,5 +1,6 @@
 /* From a hull to its sections and the surface through them: sections are added where the surface is
  * too far from the hull. */
+#include "core/constants.h"
 #include "core/error.h"
 #include "lines/lines.h"
 #include "mesh/mesh.h"
@@ -27,7 +28,6 @@ static const double mesh_share = 0.05; /* of the tolerance: how fine triangles o
 /* Of the tolerance: what the surface through the sections may take of it, and what dropping of
  * knots may add; of triangles, whose facets no surface follows, and of patches. */
 static const double skin_share[2] = {0.8, 0.5}, light_share[2] = {0.2, 0.45};
-static const double pi = 3.14159265358979323846;
 
 /* Of the extent: an end is judged at this distance from it, and at four times that. */
 static const double end_step = 1e-3;
@@ -53,7 +53,7 @@ typedef struct work {
 void nurbs_sections_options_init(nurbs_sections_options *options)
 {
     if (options)
-        *options = (nurbs_sections_options){.tolerance = NAN, .kink_angle = 20 * pi / 180};
+        *options = (nurbs_sections_options){.tolerance = NAN, .kink_angle = 20 * PI / 180};
 }
 
 void nurbs_sections_free(nurbs_sections *s)
@@ -168,12 +168,12 @@ static nurbs_status first_rows(work *w)
     if (!status)
         status = keel_kinks(w->mesh, &w->sheets, w->options.kink_angle, MOST_KINKS, kink, &kinks);
     for (size_t k = 1; k + 1 < rows && !status; k++) {
-        double place = low + (high - low) * 0.5 * (1 - cos(pi * (double)k / (double)(rows - 1)));
+        double place = low + (high - low) * 0.5 * (1 - cos(PI * (double)k / (double)(rows - 1)));
         bool taken = false;
         for (size_t i = 0; i < kinks; i++) {
             /* The nearest row goes to a kink. */
-            double gap = (high - low) * 0.5 * pi / (double)(rows - 1) *
-                         sin(pi * (double)k / (double)(rows - 1));
+            double gap = (high - low) * 0.5 * PI / (double)(rows - 1) *
+                         sin(PI * (double)k / (double)(rows - 1));
             taken |= fabs(kink[i] - place) < 0.5 * gap;
         }
         status = taken ? NURBS_OK : add_row(w, place);
