@@ -15,7 +15,8 @@ static const double COARSE_SHARE = 0.75, COARSE_TOLERANCE = 10;
 static const double WHOLE_BOX = 2; /* a radius that the box ends before */
 /* Of initial designs: how far the model is asked to look, and how far inside of the limits. */
 static const double DESIGN_RADIUS = 0.5, DESIGN_MARGIN = 0.01;
-enum { DRAWS = 2 };                          /* points tried for each */
+enum { DRAWS = 2 }; /* points tried for each */
+static const double UNREACHED = 1e3;
 static const double FORECAST_OUTSIDE = 1e-4; /* no step keeps the limits */
 enum { ALONG = 60, AROUND = 16 };            /* samples of the pressure */
 
@@ -259,7 +260,7 @@ static double least(struct descent *d, const struct gn_model *model, const struc
         struct gn_setting *s = (struct gn_setting *)&d->problem.setting[m];
         *s = weigh(config, m);
         if (m > config->models && isnan(config->speeds))
-            s->offset = HUGE_VAL; /* never reached */
+            s->offset = UNREACHED; /* finite: SLSQP computes with it */
     }
     double broken = 0, ratio = gn_model_minimise(model, WHOLE_BOX, step, &broken);
     d->base->config = keep;
