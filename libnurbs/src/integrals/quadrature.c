@@ -112,8 +112,8 @@ static void sum_row(void *context, size_t n, const double *triples, double wu, c
 nurbs_status patch_integrate(const nurbs_surface *surface, double level, size_t order,
                              patch_sums *sums)
 {
-    struct sums_at_level at = {level, sums};
     *sums = no_sums;
+    struct sums_at_level at = {level, sums};
     return patch_visit(surface, order, sum_row, &at);
 }
 
