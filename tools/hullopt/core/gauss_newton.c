@@ -14,7 +14,8 @@ static const double FIRST_RADIUS = 0.4, LEAST_RADIUS = 0.02, MOST_RADIUS = 1, GR
 static const double DIFFERENCE = 0.03; /* step of the differences, half widths */
 static const double LEAST_GAIN = 1e-3, LEAST_OF_A_CYCLE = 5e-3; /* of the ratio */
 enum { MORE_STEPS = 2 };                                        /* with the same derivatives */
-static const double MARGIN = 2e-3; /* by which every limit is tightened */
+/* By which every limit is tightened: more where steps end outside by as little. */
+static const double MARGIN = 2e-3, SMALL_EXCESS = 5e-3, MOST_MARGIN = 1e-2;
 /* Shares of the promised progress: a shorter radius below, a longer one above. */
 static const double POOR = 0.25, GOOD = 0.7;
 /* Of an excess: exact as long as it is above the multipliers of the step's problem, which are of
@@ -181,7 +182,7 @@ static enum gn_answer try_step(struct run *run, double radius, double least, dou
     double before = progress(run, &run->at), broken = 0;
     run->model.base = run->at;
     double tau = gn_model_minimise(&run->model, radius, run->step, &broken);
-    double promised = before - tau - run->model.penalty * fmax(broken - MARGIN, 0);
+    double promised = before - tau - run->model.penalty * fmax(broken - run->model.margin, 0);
     *share = NAN;
     if (!(promised > least))
         return GN_VALUED;
@@ -191,6 +192,9 @@ static enum gn_answer try_step(struct run *run, double radius, double least, dou
         return answer;
     *share = (before - progress(run, &run->candidate)) / promised;
     gn_model_update(&run->model, run->step, &run->candidate);
+    double over = worst_excess(run, &run->candidate);
+    if (over > 0 && over < SMALL_EXCESS)
+        run->model.margin = fmin(run->model.margin + over, MOST_MARGIN);
     if (*share > 0) {
         swap(&run->at, &run->candidate);
         memcpy(run->x, run->trial, run->problem->n * sizeof *run->x);
