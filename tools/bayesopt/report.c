@@ -197,6 +197,11 @@ static void print_holders(const json_t *list)
     {
         bool detached = json_is_true(json_object_get(h, "detached"));
         const char *host = json_string_value(json_object_get(h, "host"));
+        if (!json_integer_value(json_object_get(h, "process"))) {
+            printf("point %lld waits to be asked again\n",
+                   (long long)json_integer_value(json_object_get(h, "id")));
+            continue;
+        }
         printf("point %lld %s%lld%s%s%s, asked %.0f s ago, heard of %.0f s ago\n",
                (long long)json_integer_value(json_object_get(h, "id")),
                detached ? "waits to be told; asked by process " : "is held by process ",
