@@ -7,6 +7,8 @@
 #include <string.h>
 
 enum { MOST_POINTS = 300 };
+/* Of how values differ: what a quadratic that foretells them may miss. */
+static const double share_foretold = 0.01;
 
 struct near {
     double distance;
@@ -50,6 +52,17 @@ static bool solve_conditions(size_t d, size_t m, const double *s, const double *
     return matrix_solve(n, a, solution, singular);
 }
 
+/* Points by their distance. */
+static void sort(size_t d, size_t n, const double *x, const double *centre, struct near *order)
+{
+    for (size_t i = 0; i < n; i++) {
+        order[i] = (struct near){0, i};
+        for (size_t j = 0; j < d; j++)
+            order[i].distance = fmax(order[i].distance, fabs(x[i * d + j] - centre[j]));
+    }
+    qsort(order, n, sizeof *order, nearer);
+}
+
 bool quadratic_fit(struct quadratic *q, size_t d, size_t n, const double *x, const double *y,
                    const double *centre)
 {
@@ -65,12 +78,7 @@ bool quadratic_fit(struct quadratic *q, size_t d, size_t n, const double *x, con
     if (ok) {
         q->gradient = q->centre + d;
         q->hessian = q->gradient + d;
-        for (size_t i = 0; i < n; i++) {
-            order[i] = (struct near){0, i};
-            for (size_t j = 0; j < d; j++)
-                order[i].distance = fmax(order[i].distance, fabs(x[i * d + j] - centre[j]));
-        }
-        qsort(order, n, sizeof *order, nearer);
+        sort(d, n, x, centre, order);
         unit = order[m - 1].distance;
         ok = unit > 0;
     }
@@ -100,6 +108,39 @@ bool quadratic_fit(struct quadratic *q, size_t d, size_t n, const double *x, con
     free(order);
     free(s);
     return ok;
+}
+
+bool quadratic_foretells(size_t d, size_t n, const double *x, const double *y, const double *centre,
+                         double *reach)
+{
+    size_t m = (d + 1) * (d + 2) / 2, others = d + 1;
+    if (m > MOST_POINTS || n < m + others)
+        return false;
+    struct quadratic q = {0};
+    struct near *order = malloc(n * sizeof *order);
+    double *near_x = malloc(m * (d + 1) * sizeof *near_x), mean = 0, spread = 0, square = 0;
+    bool ok = order && near_x;
+    if (ok)
+        sort(d, n, x, centre, order);
+    for (size_t i = 0; i < m && ok; i++) {
+        memcpy(near_x + i * d, x + order[i].row * d, d * sizeof *near_x);
+        near_x[m * d + i] = y[order[i].row];
+    }
+    ok = ok && quadratic_fit(&q, d, m, near_x, near_x + m * d, centre);
+    for (size_t i = m; i < m + others && ok; i++)
+        mean += y[order[i].row] / (double)others;
+    for (size_t i = m; i < m + others && ok; i++) {
+        double value = y[order[i].row],
+               error = value - quadratic_value(&q, x + order[i].row * d, NULL);
+        square += error * error;
+        spread += (value - mean) * (value - mean);
+    }
+    if (ok)
+        *reach = order[m + others - 1].distance;
+    quadratic_free(&q);
+    free(near_x);
+    free(order);
+    return ok && square < share_foretold * share_foretold * spread;
 }
 
 void quadratic_free(struct quadratic *q)

@@ -19,6 +19,11 @@ struct quadratic {
  * the points do not determine a gradient. Free with quadratic_free() in any case. */
 bool quadratic_fit(struct quadratic *q, size_t d, size_t n, const double *x, const double *y,
                    const double *centre);
+/* Whether the quadratic through the nearest points, as many as it has coefficients, foretells the
+ * next d + 1, to 1 % of how those differ; *reach: how far away they are, by the largest coordinate
+ * difference. False also when there are too few or memory is short. */
+bool quadratic_foretells(size_t d, size_t n, const double *x, const double *y, const double *centre,
+                         double *reach);
 void quadratic_free(struct quadratic *q);
 /* Value at x; gradient [d] filled unless NULL. */
 double quadratic_value(const struct quadratic *q, const double *x, double *gradient);

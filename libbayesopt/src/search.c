@@ -8,11 +8,14 @@
 #include <string.h>
 
 /* How long a step climbs; chosen on tests/bench/bayesopt_regret. */
-enum { ASCENT_EVALUATIONS = 60 };
+enum { ASCENT_EVALUATIONS = 60, DESCENT_EVALUATIONS = 300 };
 /* With discrete variables climbs along the others and sweeps over these take turns. */
 enum { SWEEPS = 8, MOST_CATEGORIES = 64 };
 /* Change of the acquisition, a logarithm, at which a climb ends. */
 static const double ascent_tolerance = 1e-5;
+/* Of a quadratic, in units of what it varies over the box, beside which the bottom of a narrow
+ * valley is level. */
+static const double descent_tolerance = 1e-14;
 
 static bayesopt_status believe(bayesopt_gp *gp, const double *u)
 {
@@ -277,8 +280,9 @@ static bayesopt_status climb(struct climber *c, const double *u)
     nlopt_set_min_objective(opt, climb_objective, c);
     nlopt_set_lower_bounds(opt, lower);
     nlopt_set_upper_bounds(opt, upper);
-    nlopt_set_maxeval(opt, ASCENT_EVALUATIONS);
-    nlopt_set_ftol_abs(opt, ascent_tolerance);
+    bool quadratic = c->search->goal == SEARCH_QUADRATIC;
+    nlopt_set_maxeval(opt, quadratic ? DESCENT_EVALUATIONS : ASCENT_EVALUATIONS);
+    nlopt_set_ftol_abs(opt, quadratic ? descent_tolerance : ascent_tolerance);
     if (m) {
         broyden.u = malloc((d + 2 * m + m * d) * sizeof *broyden.u);
         if (!broyden.u) {

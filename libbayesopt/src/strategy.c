@@ -257,6 +257,35 @@ static bayesopt_status propose_anywhere(struct bayesopt *bo, uint64_t id, double
                                  bo->region.m);
 }
 
+/* Values that count, and their points. NULL: out of memory. */
+static double *list_values(const struct bayesopt *bo, size_t *n, double **y)
+{
+    double *x = malloc((bo->n_points ? bo->n_points : 1) * (bo->d + 1) * sizeof *x);
+    *n = 0;
+    if (!x)
+        return NULL;
+    *y = x + bo->n_points * bo->d;
+    for (size_t i = 0; i < bo->n_points; i++)
+        if (point_counts(bo, &bo->points[i])) {
+            memcpy(x + *n * bo->d, bo->points[i].u, bo->d * sizeof *x);
+            (*y)[(*n)++] = bo->points[i].f;
+        }
+    return x;
+}
+
+/* A quadratic through the values around the centre; none if there are too few or they lie in a
+ * plane. */
+static bool fit_quadratic(const struct bayesopt *bo, const double *centre, struct quadratic *q)
+{
+    double *y;
+    size_t n;
+    double *x = list_values(bo, &n, &y);
+    *q = (struct quadratic){0};
+    bool ok = x && quadratic_fit(q, bo->d, n, x, y, centre);
+    free(x);
+    return ok;
+}
+
 /* Whether the points near the centre are as many as a quadratic has coefficients. */
 static bool surrounded(const struct bayesopt *bo, const struct trust *t)
 {
@@ -267,12 +296,23 @@ static bool surrounded(const struct bayesopt *bo, const struct trust *t)
     return count >= (bo->d + 1) * (bo->d + 2) / 2;
 }
 
-/* Of two kinds of polishing steps the one that gained more of late, every fourth time the other.
- * The regression knows more of the function; close to a minimum of a smooth one the quadratic is
- * the better conditioned of the two. */
-static bayesopt_phase polishing_phase(const struct bayesopt *bo, const struct trust *t)
+/* Of two kinds of polishing steps the one that gained more of late, every fourth time the other. A
+ * quadratic takes part when there are enough points around, or when it foretells those farther
+ * away. The regression knows more of the function; close to a minimum of a smooth one the quadratic
+ * is the better conditioned of the two. */
+static bayesopt_phase polishing_phase(const struct bayesopt *bo, struct trust *t)
 {
-    if (bo->n_discrete || !surrounded(bo, t) || bo->options.noise != BAYESOPT_NOISE_DETERMINISTIC)
+    double reach = 0;
+    if (bo->n_discrete || bo->options.noise != BAYESOPT_NOISE_DETERMINISTIC)
+        return BAYESOPT_PHASE_POLISH;
+    double *y;
+    size_t n;
+    double *x = list_values(bo, &n, &y);
+    bool proven = x && quadratic_foretells(bo->d, n, x, y, bo->points[t->centre].u, &reach);
+    free(x);
+    if (proven)
+        t->radius = fmax(t->radius, fmin(reach, radius_most));
+    if (!proven && !surrounded(bo, t))
         return BAYESOPT_PHASE_POLISH;
     bool descent = t->descent_credit > t->polish_credit;
     if (t->polished % 4 == 3)
@@ -295,7 +335,7 @@ static size_t count_pending(const struct bayesopt *bo, bayesopt_phase phase, bay
  * turns where improvement is expected (which also measures where little is known) and where a model
  * has its minimum (which on smooth objectives is a Newton-like step). Once the bottom of a basin is
  * reached, steps that look elsewhere take the place of most of the polishing. */
-static bayesopt_phase next_phase(const struct bayesopt *bo, uint64_t id, const struct trust *t)
+static bayesopt_phase next_phase(const struct bayesopt *bo, uint64_t id, struct trust *t)
 {
     bayesopt_strategy strategy = bo->options.strategy;
     /* With several objectives there is no one best point to stay near. */
@@ -341,26 +381,6 @@ static bool little_expected(const struct bayesopt *bo, double log_improvement)
     double f = bo->points[best].f, modelled = bayesopt_gp_to_model(gp, f);
     double lower = bayesopt_gp_from_model(gp, modelled - exp(log_improvement));
     return f - lower < bo->options.stop_expected_improvement;
-}
-
-/* A quadratic through the values around the centre; none if there are too few or they lie in a
- * plane. */
-static bool fit_quadratic(const struct bayesopt *bo, const double *centre, struct quadratic *q)
-{
-    double *x = malloc((bo->n_points ? bo->n_points : 1) * (bo->d + 1) * sizeof *x);
-    size_t n = 0;
-    *q = (struct quadratic){0};
-    if (!x)
-        return false;
-    double *y = x + bo->n_points * bo->d;
-    for (size_t i = 0; i < bo->n_points; i++)
-        if (point_counts(bo, &bo->points[i])) {
-            memcpy(x + n * bo->d, bo->points[i].u, bo->d * sizeof *x);
-            y[n++] = bo->points[i].f;
-        }
-    bool ok = quadratic_fit(q, bo->d, n, x, y, centre);
-    free(x);
-    return ok;
 }
 
 /* Steps of a batch know nothing of each other's outcome, so they take the sizes that the trust

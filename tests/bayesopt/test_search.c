@@ -268,12 +268,46 @@ static void widest_range(void)
     bayesopt_free(bo);
 }
 
+/* Half axes from 1 to 1/100, turned: a quadratic that foretells values it was not fitted to is
+ * trusted, and its minimum found to rounding. */
+static double long_valley(const double *x)
+{
+    double sum = 0;
+    for (int m = 0; m < 5; m++) {
+        double z = 0;
+        for (int j = 0; j < 5; j++)
+            z += cos(3.14159265358979 * m * (j + 0.5) / 5) * (x[j] - 0.35);
+        sum += pow(10, m) * z * z;
+    }
+    return sum;
+}
+
+static void long_valleys_are_followed(void)
+{
+    for (uint64_t seed = 1; seed <= 3; seed++) {
+        bayesopt_options options;
+        bayesopt_options_init(&options);
+        options.seed = seed;
+        options.initial_n = 30;
+        options.max_evaluations = 50;
+        bayesopt *bo = make(5, &options);
+        double x[5], f;
+        uint64_t id;
+        while (bayesopt_ask(bo, 1, x, &id) == BAYESOPT_OK)
+            CU_ASSERT_EQUAL(bayesopt_tell(bo, id, long_valley(x), NULL), BAYESOPT_OK);
+        CU_ASSERT_EQUAL(bayesopt_best(bo, NULL, &f, NULL), BAYESOPT_OK);
+        CU_ASSERT(f >= 0 && f < 1e-7);
+        bayesopt_free(bo);
+    }
+}
+
 static const struct check_case cases[] = {
     {"models and acquisitions", models_and_acquisitions},
     {"models that are refused", models_that_are_refused},
     {"smooth functions are polished", smooth_functions_are_polished},
     {"forrester pair", forrester_pair},
     {"widest range", widest_range},
+    {"long valleys are followed", long_valleys_are_followed},
     {"gradients help", gradients_help},
     {"two levels", two_levels},
     {"small expected improvement", small_expected_improvement},

@@ -1,7 +1,8 @@
 /* Regret on public test functions beside the figures of other optimisers: one default
  * configuration, the peers' initial designs, seeds and budgets. Prints Markdown tables: the
- * functions for which figures of the peers are known, then others, where NLopt's DIRECT_L and
- * BOBYQA (from the best point of the same design) run along.
+ * functions for which figures of the peers are known, ten stated before any optimiser was run on
+ * them (figures by bayesopt_peers.py), then others, where NLopt's DIRECT_L and BOBYQA (from the
+ * best point of the same design) run along.
  *
  * usage: bayesopt_regret [SEEDS [FUNCTION...]]   (default 10 seeds up to 6 variables, 5 above) */
 #include "bayesopt_functions.h"
@@ -72,7 +73,8 @@ static double best_peer(const char *function, int bayesian, char *name, size_t s
             strcmp(f, function) != 0 || strncmp(method, "ref_", 4) == 0)
             continue;
         int is_bayesian = strncmp(method, "bayesopt", 8) == 0 || strncmp(method, "limbo", 5) == 0 ||
-                          strncmp(method, "sklearn", 7) == 0;
+                          strncmp(method, "sklearn", 7) == 0 ||
+                          strncmp(method, "openturns", 9) == 0;
         if ((is_bayesian || !bayesian) && median < best) {
             best = median;
             snprintf(name, size, "%s", method);
@@ -185,20 +187,26 @@ static size_t seeds_for(const struct test_function *f, size_t given)
     return given ? given : f->d <= 6 ? 10 : 5;
 }
 
+static void compare_all(size_t n, const struct test_function *functions, size_t seeds, int argc,
+                        char **argv)
+{
+    printf("| function (d, n0/N) | regret, median [quartiles] | seeds | best Bayesian peer | best "
+           "of any kind | CPU s per proposal |\n|---|---|---|---|---|---|\n");
+    for (size_t i = 0; i < n; i++)
+        if (wanted(functions[i].name, argc, argv))
+            compare_with_peers(&functions[i], seeds_for(&functions[i], seeds));
+    printf("\n");
+}
+
 int main(int argc, char **argv)
 {
     size_t seeds = argc > 1 ? (size_t)strtoul(argv[1], NULL, 10) : 0;
     if (seeds > MOST_SEEDS)
         return EXIT_FAILURE;
-    printf("| function (d, n0/N) | regret, median [quartiles] | seeds | best Bayesian peer | best "
-           "of any "
-           "kind | CPU s per proposal |\n|---|---|---|---|---|---|\n");
-    for (size_t i = 0; i < n_test_functions; i++)
-        if (wanted(test_functions[i].name, argc, argv))
-            compare_with_peers(&test_functions[i], seeds_for(&test_functions[i], seeds));
-    printf(
-        "\n| function (d, n0/N) | regret, median [quartiles] | seeds | LHS + BOBYQA | DIRECT_L | "
-        "CPU s per proposal |\n|---|---|---|---|---|---|\n");
+    compare_all(n_test_functions, test_functions, seeds, argc, argv);
+    compare_all(n_stated_functions, stated_functions, seeds, argc, argv);
+    printf("| function (d, n0/N) | regret, median [quartiles] | seeds | LHS + BOBYQA | DIRECT_L | "
+           "CPU s per proposal |\n|---|---|---|---|---|---|\n");
     for (size_t i = 0; i < n_held_out_functions; i++)
         if (wanted(held_out_functions[i].name, argc, argv))
             compare_on_held_out(&held_out_functions[i], seeds_for(&held_out_functions[i], seeds));
