@@ -48,6 +48,16 @@ static void test_only_objective(void)
     CU_ASSERT_PTR_NOT_NULL(strstr(v.statement, "Only the model of the search"));
 }
 
+/* A run may leave its verification out. */
+static void test_nothing_asked(void)
+{
+    const struct verification rows[] = {row(GROUP_OBJECTIVE, 1.6e-3, 0.8e-3)};
+    struct verdict v;
+    verdict_reach(rows, 1, &v);
+    CU_ASSERT_FALSE(v.formulations || v.only_objective);
+    CU_ASSERT_PTR_NOT_NULL(strstr(v.statement, "No other formulation was asked"));
+}
+
 /* Kochin function and pressure of the same solution contradict each other: that is said. */
 static void test_pressure(void)
 {
@@ -174,6 +184,7 @@ static void test_plan(void)
 }
 
 static const struct check_case cases[] = {
+    {"nothing else asked", test_nothing_asked},
     {"all models agree", test_confirmed},
     {"only the objective sees the gain", test_only_objective},
     {"pressure contradicts", test_pressure},

@@ -70,7 +70,9 @@ static void count(const struct verification *row, struct verdict *v)
 
 static void state_models(struct verdict *v)
 {
-    if (v->models == 0)
+    if (!v->asked)
+        say(v, "No other formulation was asked, so the gain is unconfirmed.");
+    else if (v->models == 0)
         say(v, "No other formulation gave a result, so the gain is unconfirmed.");
     else if (v->only_objective)
         say(v,
@@ -115,6 +117,8 @@ static void state(struct verdict *v)
 void verdict_reach(const struct verification *rows, size_t n, struct verdict *v)
 {
     *v = (struct verdict){.claimed = NAN, .pressure = NAN};
+    for (size_t i = 0; i < n; i++)
+        v->asked = v->asked || rows[i].group == GROUP_FORMULATION;
     for (size_t i = 0; i < n; i++)
         if (isfinite(rows[i].cw_parent) && isfinite(rows[i].cw_best))
             count(&rows[i], v);

@@ -8,6 +8,7 @@
 
 struct verdict {
     double claimed;    /* reduction that the objective sees, share of the parent's C_w */
+    bool asked;        /* another formulation was */
     size_t models;     /* other formulations with a result */
     size_t confirm;    /* of these: at least half of the claimed reduction */
     size_t partly;     /* some reduction, less than half of the claimed one */
