@@ -38,7 +38,8 @@ igabem_status igabem_solve_many(const igabem_hull *hull, size_t n, const igabem_
         status = solution_create(hull, &options[k], &solutions[k]);
     struct progress progress = {.tell = NULL};
     if (n > 0)
-        progress = (struct progress){.tell = options[0].progress, .user_data = options[0].progress_user_data};
+        progress = (struct progress){.tell = options[0].progress,
+                                     .user_data = options[0].progress_user_data};
     if (status == IGABEM_OK)
         status = solve_groups(n, solutions, member, taken, &progress);
     free(member);
