@@ -100,7 +100,7 @@ galv_status galv_build_parameters(const galv_shape *shape, size_t npoints, const
                         .method = GALV_METHOD_PARAMETERS,
                         .retained = 1,
                         .retained_geometry = 1,
-                        .confidence = {NAN, NAN, NAN}};
+                        .confidence = {NAN, NAN, NAN, {0}}};
     galv_model *model = galv_model_new(&sizes, false);
     if (!model)
         return galv_fail(GALV_ERROR_MEMORY, "model of %zu parameters on %zu points", n, npoints);
