@@ -2,10 +2,30 @@
 
 #include "cli.h"
 
+#include <errno.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+
+hid_t h5_open(const char *path)
+{
+    struct stat info;
+    hid_t h5 = -1;
+    /* HDF5 would wait for a FIFO and seeks in what it opens. */
+    if (stat(path, &info) != 0) {
+        cli_fail("%s: %s", path, strerror(errno));
+    } else if (!S_ISREG(info.st_mode)) {
+        cli_fail("%s: not a regular file, as HDF5 is", path);
+    } else {
+        H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+        h5 = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+        if (h5 < 0)
+            cli_fail("%s: not an HDF5 file that can be read", path);
+    }
+    return h5;
+}
 
 bool h5_write_array(hid_t place, const char *name, size_t rows, size_t columns,
                     const double *values)

@@ -1,11 +1,14 @@
 /* Arrays and attributes of HDF5 files, in the few forms that model files use. All calls return
- * false on failure and print nothing. */
+ * false on failure and print nothing, but for h5_open(). */
 #ifndef GALV_TOOL_H5_H
 #define GALV_TOOL_H5_H
 
 #include <hdf5.h>
 #include <stdbool.h>
 #include <stddef.h>
+
+/* A file for reading; negative, with why printed, for what is none. */
+hid_t h5_open(const char *path);
 
 /* Datasets of doubles of 1 or 2 dimensions; columns 0: one dimension. */
 bool h5_write_array(hid_t place, const char *name, size_t rows, size_t columns,

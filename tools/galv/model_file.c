@@ -7,7 +7,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 enum { VERSION = 1 };
 
@@ -364,18 +363,9 @@ static bool read_all(struct reader *r, struct model_file *file)
 bool model_file_read(const char *path, struct model_file *file)
 {
     *file = (struct model_file){.model = NULL};
-    /* HDF5 would wait for a FIFO and seeks in what it opens. */
-    struct stat info;
-    if (stat(path, &info) != 0)
-        return cli_refuse("%s: %s", path, strerror(errno));
-    if (!S_ISREG(info.st_mode))
-        return cli_refuse("%s: not a regular file, as a model is", path);
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-    struct reader r = {.h5 = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT)};
-    if (r.h5 < 0) {
-        cli_fail("%s: not an HDF5 file that can be read", path);
+    struct reader r = {.h5 = h5_open(path)};
+    if (r.h5 < 0)
         return false;
-    }
     bool ok = read_all(&r, file);
     H5Fclose(r.h5);
     if (ok)

@@ -3,23 +3,15 @@
 #include "cli.h"
 #include "h5.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 static bool read_h5(const char *path, const char *dataset, size_t *rows, size_t *columns,
                     double **values)
 {
-    struct stat info;
-    if (stat(path, &info) != 0)
-        return cli_refuse("%s: %s", path, strerror(errno));
-    if (!S_ISREG(info.st_mode))
-        return cli_refuse("%s: not a regular file", path);
-    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-    hid_t h5 = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    hid_t h5 = h5_open(path);
     if (h5 < 0)
-        return cli_refuse("%s: not an HDF5 file that can be read", path);
+        return false;
     *values = h5_load_array(h5, dataset, 2, rows, columns);
     H5Fclose(h5);
     return *values || cli_refuse("%s: no dataset '%s' of two dimensions; --dataset names another",
