@@ -44,7 +44,7 @@ def call(u, **config):
 
 
 try:
-    assert ask("/Info") == (200, {"protocolVersion": "1.0", "models": ["latent"]})
+    assert ask("/Info") == (200, {"protocolVersion": "1.0", "models": ["latent", "design"]})
     _, info = ask("/ModelInfo", {"name": "latent"})
     assert info["support"] == {"Evaluate": True, "Gradient": False, "ApplyJacobian": False, "ApplyHessian": False}
     (n,) = ask("/InputSizes", {"name": "latent"})[1]["inputSizes"]

@@ -334,8 +334,10 @@ static bool open_model(struct runner *r)
     size_t most = c->output;
     for (size_t k = 0; k < c->names.m; k++)
         most = config_output(c, k) > most ? config_output(c, k) : most;
-    if (!umbridge_open(&r->model, c->url, c->model, c->model_config, c->names.d, most))
-        return false;
+    json_t *config = c->model_config ? json_loads(c->model_config, 0, NULL) : NULL;
+    char sentence[UMBRIDGE_SENTENCE];
+    if (!umbridge_open(&r->model, c->url, c->model, config, c->names.d, most, sentence))
+        return cli_refuse("%s", sentence);
     log_line("%s at %s %s", c->model, c->url,
              !r->model.has_gradient ? "has no derivatives"
              : c->use_gradient      ? "has derivatives, which are used"

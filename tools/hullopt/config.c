@@ -292,16 +292,18 @@ void config_free(struct config *config)
     *config = (struct config){0};
 }
 
-bool config_difference(const char *now, const char *then, char *sentence, size_t size)
+bool config_difference(const char *a, const char *b, const char *const sides[2], char *sentence,
+                       size_t size)
 {
-    while (*now || *then) {
-        size_t a = strcspn(now, "\n"), b = strcspn(then, "\n");
-        if (a != b || memcmp(now, then, a) != 0) {
-            snprintf(sentence, size, "now '%.*s', then '%.*s'", (int)a, now, (int)b, then);
+    while (*a || *b) {
+        size_t m = strcspn(a, "\n"), n = strcspn(b, "\n");
+        if (m != n || memcmp(a, b, m) != 0) {
+            snprintf(sentence, size, "%s '%.*s', %s '%.*s'", sides[0], (int)m, a, sides[1], (int)n,
+                     b);
             return true;
         }
-        now += a + (now[a] == '\n');
-        then += b + (then[b] == '\n');
+        a += m + (a[m] == '\n');
+        b += n + (b[n] == '\n');
     }
     return false;
 }

@@ -77,8 +77,9 @@ bool config_read(const char *path, const struct config_overrides *overrides, str
 bool config_restore(const char *text, struct config *config);
 void config_free(struct config *config);
 
-/* First line in which two canonical texts differ, as "now ..., then ..." in sentence[size]; false
- * when they are equal. */
-bool config_difference(const char *now, const char *then, char *sentence, size_t size);
+/* First line in which two canonical texts differ, as "SIDE '...', SIDE '...'" in sentence[size];
+ * false when they are equal. */
+bool config_difference(const char *a, const char *b, const char *const sides[2], char *sentence,
+                       size_t size);
 
 #endif

@@ -9,6 +9,7 @@ struct options {
     double froude;            /* NAN: not given */
     struct config_overrides overrides;
     bool resume;
+    char *servers; /* of a run, "URL,URL"; NULL: none */
     char *address; /* of a server, and its port */
     int port, jobs;
     double timeout;              /* of one of several designs at once, s */

@@ -76,7 +76,13 @@ static const struct setting RUN[] = {
         .option = "resume"),
     ROW(INTEGER, jobs, "designs evaluated at once, in processes of one thread each",
         .option = "jobs", SETTING_FROM(1, 64), .otherwise = "1"),
-    ROW(NUMBER, timeout, "s after which one of several designs at once has failed; 0: never",
+    ROW(TEXT, servers,
+        "URL,... of servers that solve the designs, --jobs at once in all: 'hullopt serve' of the "
+        "same configuration, or UM-Bridge's load balancer in front of it",
+        .option = "server"),
+    ROW(NUMBER, timeout,
+        "s after which one of several designs at once has failed, or the server that has it is "
+        "lost; 0: never",
         .option = "timeout", SETTING_FROM(0, 1e6), .otherwise = "0"),
     ROW(INTEGER, overrides.initial, "size of the initial design", .option = "initial",
         SETTING_FROM(2, 100000), .words = AS_CONFIGURED, .otherwise = "as configured"),

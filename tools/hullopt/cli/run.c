@@ -2,6 +2,7 @@
 #include "cli/commands.h"
 #include "cli/folder.h"
 #include "core/optimise.h"
+#include "core/remote.h"
 #include "core/search.h"
 #include "report/outputs.h"
 #include "report/results.h"
@@ -90,10 +91,17 @@ static bool report(const struct options *options, struct problem *problem,
 }
 
 static bool work(const struct options *options, struct problem *problem, const galv_shape *shape,
-                 const char *path, const struct core_watch *watch)
+                 const char *path, bool is_new, const struct core_watch *watch)
 {
     struct record record;
+    struct remote remote = {.n = 0};
     bool ok = say(search_open(problem, path, &record));
+    if (ok && options->servers) {
+        problem->remote = &remote;
+        ok = say(remote_open(&remote, problem, options->servers));
+        if (!ok && is_new) /* a run that never began */
+            record_remove(path);
+    }
     ok = ok && say(record_begin_session(&record, cli_threads(), options->start) &&
                    optimise_run(problem, shape, &record, watch));
     cli_progress_end(&((struct watch *)watch->user_data)->progress);
@@ -101,6 +109,8 @@ static bool work(const struct options *options, struct problem *problem, const g
         cli_fail("nothing is lost: hullopt run %s --out %s --resume goes on", options->path,
                  options->out);
     ok = ok && report(options, problem, &record);
+    remote_close(&remote);
+    problem->remote = NULL;
     record_close(&record);
     return ok;
 }
@@ -115,8 +125,9 @@ static bool run_in_folder(const struct options *options, struct problem *problem
     if (!folder_open(&folder, options->out))
         return false;
     char *path = folder_join(options->out, "run.db");
+    bool is_new = path && access(path, F_OK) != 0;
     bool ready = path && prepare(options, problem, shape, path, &watch);
-    bool ok = ready && work(options, problem, shape, path, &watch);
+    bool ok = ready && work(options, problem, shape, path, is_new, &watch);
     if (ready)
         folder_close(&folder);
     else
@@ -136,6 +147,9 @@ int run_command(const struct options *options)
     bool ok = options->jobs == 1 || asks ||
               cli_refuse("--jobs %d: %s needs the value of each design before the next",
                          options->jobs, method->name);
+    ok = ok && (!options->servers || method->kind != METHOD_DESCENT ||
+                cli_refuse("--server: %s needs the solutions themselves, which no server gives",
+                           method->name));
     ok = ok && say(problem_read(&config, &problem));
     if (ok) {
         problem.jobs = (size_t)options->jobs;

@@ -1,5 +1,6 @@
 #include "cli.h"
 #include "cli/commands.h"
+#include "core/identity.h"
 #include "core/sentence.h"
 #include "serve/designs.h"
 #include "serve/http.h"
@@ -15,6 +16,7 @@
 struct server {
     const struct config *config;
     struct designs *designs;
+    json_t *identity; /* of the problem */
     atomic_size_t evaluated, failed;
 };
 
@@ -34,14 +36,10 @@ static json_t *labels(const struct served *model)
     return variant_labels(((const struct server *)model->user_data)->config);
 }
 
-static bool evaluate_latent(const struct served *model, const double *input, const json_t *config,
-                            double *output, struct served_error *error)
+static bool value_design(struct server *server, const double *input, const struct variant *variant,
+                         double *output, struct served_error *error)
 {
-    struct server *server = model->user_data;
-    struct variant variant;
-    if (!variant_read(server->config, config, &variant, error))
-        return false;
-    bool ok = designs_evaluate(server->designs, input, &variant, output, error);
+    bool ok = designs_evaluate(server->designs, input, variant, output, error);
     atomic_fetch_add(&server->evaluated, 1);
     if (!ok) {
         atomic_fetch_add(&server->failed, 1);
@@ -50,24 +48,76 @@ static bool evaluate_latent(const struct served *model, const double *input, con
     return ok;
 }
 
+static bool evaluate_latent(const struct served *model, const double *input, const json_t *config,
+                            double *output, struct served_error *error)
+{
+    struct server *server = model->user_data;
+    struct variant variant;
+    return variant_read(server->config, config, &variant, error) &&
+           value_design(server, input, &variant, output, error);
+}
+
+/* Model 'design' is what 'hullopt run --server' asks: whoever asks says in every request which
+ * problem is meant, so that it reaches the server through a load balancer too. */
+static bool is_ours(const struct server *server, const json_t *config, struct served_error *error)
+{
+    char sentence[SERVED_SENTENCE / 2];
+    return identity_agrees(server->identity, config, sentence, sizeof sentence) ||
+           served_fail(error, SERVED_INVALID_INPUT, "the server has another problem: %s", sentence);
+}
+
+static const struct variant AS_RUN = {.as_run = true};
+
+static bool design_sizes(const struct served *model, const json_t *config,
+                         size_t sizes[SERVED_OUTPUTS], struct served_error *error)
+{
+    const struct server *server = model->user_data;
+    variant_sizes(&AS_RUN, server->config, sizes);
+    return is_ours(server, config, error);
+}
+
+static bool evaluate_design(const struct served *model, const double *input, const json_t *config,
+                            double *output, struct served_error *error)
+{
+    struct server *server = model->user_data;
+    return is_ours(server, config, error) && value_design(server, input, &AS_RUN, output, error);
+}
+
+static json_t *design_labels(const struct served *model)
+{
+    (void)model;
+    return json_pack("[[s], [s], [s, s, s, s, s, s]]",
+                     "C_w by search.models and speeds of the configuration", "C_w by pressure",
+                     "R_w, N", "share of C_w beyond the filter", "condition", "unknowns",
+                     "volume, m^3", "wetted area, m^2");
+}
+
 /* Serves until one of the signals comes. */
 static bool serve(const struct options *options, uint16_t port, struct server *server,
                   const sigset_t *signals)
 {
     char sentence[SERVED_SENTENCE];
-    const struct served latent = {.name = "latent",
-                                  .n = designs_modes(server->designs),
-                                  .lower = designs_lower(server->designs),
-                                  .upper = designs_upper(server->designs),
-                                  .sizes = sizes,
-                                  .labels = labels,
-                                  .evaluate = evaluate_latent,
-                                  .user_data = server};
-    struct http *http = http_start(options->address, port, 1, &latent, sentence);
+    size_t modes = designs_modes(server->designs);
+    const struct served models[] = {{.name = "latent",
+                                     .n = modes,
+                                     .lower = designs_lower(server->designs),
+                                     .upper = designs_upper(server->designs),
+                                     .sizes = sizes,
+                                     .labels = labels,
+                                     .evaluate = evaluate_latent,
+                                     .user_data = server},
+                                    {.name = "design",
+                                     .n = modes,
+                                     .sizes = design_sizes,
+                                     .labels = design_labels,
+                                     .evaluate = evaluate_design,
+                                     .user_data = server}};
+    struct http *http =
+        http_start(options->address, port, sizeof models / sizeof *models, models, sentence);
     if (!http)
         return cli_refuse("%s", sentence);
     printf("http://%s:%u serves model 'latent' of %zu variables, %d designs at once\n",
-           options->address, http_port(http), latent.n, options->jobs);
+           options->address, http_port(http), modes, options->jobs);
     bool ok = cli_printed() == CLI_OK;
     int signal;
     if (ok)
@@ -110,9 +160,11 @@ int serve_command(const struct options *options)
     struct server server = {.config = &config};
     int threads = cli_threads() / options->jobs;
     server.designs = designs_start(&config, (size_t)options->jobs, threads > 1 ? threads : 1);
-    bool ok = server.designs ? serve(options, port, &server, &signals)
-                             : cli_refuse("%s", core_sentence());
+    server.identity = server.designs ? identity_of(designs_problem(server.designs)) : NULL;
+    bool ok = server.identity ? serve(options, port, &server, &signals)
+                              : cli_refuse("%s", core_sentence());
     designs_free(server.designs);
+    json_decref(server.identity);
     config_free(&config);
     return ok ? CLI_OK : CLI_FAILED;
 }

@@ -95,10 +95,10 @@ static bool set_groups(struct comparison *c, char *const *paths)
     char difference[400];
     for (size_t i = 0; i < c->n; i++) {
         size_t first = 0;
-        if (config_difference(c->course[i].problem, c->course[0].problem, difference,
+        if (config_difference(c->course[i].problem, c->course[0].problem,
+                              (const char *const[]){paths[i], paths[0]}, difference,
                               sizeof difference))
-            return core_fail("%s and %s are runs of different problems (%s)", paths[i], paths[0],
-                             difference);
+            return core_fail("these are runs of different problems: %s", difference);
         while (strcmp(c->course[first].group, c->course[i].group) != 0)
             first++;
         c->group[i] = first < i ? c->group[first] : c->groups++;

@@ -3,6 +3,7 @@
 #include "cli.h"
 #include "core/constraints.h"
 #include "core/particulars.h"
+#include "core/remote.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -66,6 +67,15 @@ static bool keep_limits(const struct problem *problem, const struct evaluation *
     return e->outside > OUTSIDE ||
            (measure(problem, &problem->parent, nurbs_grid_points(problem->grid), &parent) &&
             limits_kept(problem->config, e, &parent));
+}
+
+/* By the servers of the problem, where there are some: they have the same settings. */
+static bool solve_remotely(struct problem *problem, struct evaluation *e)
+{
+    igabem_options settings[SETTINGS_MOST];
+    e->models = problem->config->models;
+    e->speeds = evaluate_settings(problem, settings) - 1 - e->models;
+    return remote_solve(problem->remote, e);
 }
 
 static bool compute_forces(const igabem_solution *solution, igabem_forces *forces)
@@ -149,12 +159,13 @@ static bool solve(const struct problem *problem, const igabem_hull *body, struct
 }
 
 /* points: of the grid of the design. */
-static void finish(const struct problem *problem, const struct design *design, const double *points,
+static void finish(struct problem *problem, const struct design *design, const double *points,
                    double start, struct viewer viewer, struct evaluation *e)
 {
+    bool here = !problem->remote || viewer.look || design == &problem->parent;
     bool ok = design && measure(problem, design, points, e) && keep_limits(problem, e);
     double built = cli_seconds();
-    ok = ok && solve(problem, design->body, viewer, e);
+    ok = ok && (here ? solve(problem, design->body, viewer, e) : solve_remotely(problem, e));
     e->geometry_seconds = built - start;
     e->solve_seconds = cli_seconds() - built;
     e->failed = !ok;

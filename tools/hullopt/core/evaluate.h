@@ -33,6 +33,11 @@ struct evaluation {
     double nu_s;                       /* of the waterline, as design_nu_s() */
     size_t dofs;
     double propose_seconds, geometry_seconds, solve_seconds;
+    /* Of core/remote.h: servers that did not answer, bit by bit, why the last did not, and whether
+     * none is left: then nothing is known of the design. */
+    uint64_t lost;
+    char lost_reason[REASON_SIZE];
+    bool unanswered;
 };
 
 /* Everything else NAN, 0 or "". */

@@ -1,6 +1,7 @@
 #include "core/jobs.h"
 
 #include "cli.h"
+#include "core/remote.h"
 
 #include <errno.h>
 #include <math.h>
@@ -20,7 +21,7 @@ struct job *jobs_create(size_t n, size_t modes)
     struct job *jobs = calloc(n, sizeof *jobs);
     double *u = jobs ? malloc(n * modes * sizeof *u) : NULL;
     for (size_t i = 0; i < n && u; i++)
-        jobs[i].u = u + i * modes;
+        jobs[i] = (struct job){.u = u + i * modes, .slot = i};
     if (u)
         return jobs;
     free(jobs);
@@ -85,6 +86,8 @@ bool jobs_start(struct problem *problem, struct job *job)
     if (pipe(ends) != 0)
         return core_fail("starting a process: %s", strerror(errno));
     fflush(NULL);
+    if (problem->remote)
+        remote_choose(problem->remote, job->slot);
     job->start = cli_seconds();
     job->process = fork();
     if (job->process == 0) {
@@ -121,6 +124,7 @@ static void collect(struct job *job, bool late)
     struct evaluation answer;
     size_t size = 0;
     ssize_t n = 1;
+    job->late = late;
     if (late)
         kill(job->process, SIGKILL);
     while (size < sizeof answer && n != 0) {

@@ -13,6 +13,8 @@ struct job {
     pid_t process;                /* 0: none is at work */
     int pipe;
     double start; /* cli_seconds() */
+    size_t slot;  /* its number, by which servers are dealt out */
+    bool late;    /* it was ended after most_seconds */
 };
 
 /* [n] idle jobs of points of that many coordinates; NULL without memory. */

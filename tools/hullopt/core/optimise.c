@@ -61,11 +61,12 @@ bool optimise_resume(struct problem *problem, const char *path)
     if (!record_read(path, &record, &origin))
         return false;
     record_close(&record);
-    bool ok = !config_difference(problem->config->text, origin.configuration, difference,
-                                 sizeof difference) ||
-              core_fail("%s was started with another configuration (%s): resume with that one or "
-                        "choose another folder",
-                        path, difference);
+    bool ok =
+        !config_difference(problem->config->text, origin.configuration,
+                           (const char *const[]){"now", "then"}, difference, sizeof difference) ||
+        core_fail("%s was started with another configuration (%s): resume with that one or "
+                  "choose another folder",
+                  path, difference);
     if (ok) {
         ok = problem_recall(problem, origin.model, origin.gradient);
         origin.model = NULL;

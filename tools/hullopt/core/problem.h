@@ -17,10 +17,13 @@ struct design {
 };
 void design_free(struct design *design);
 
+struct remote;
+
 struct problem {
     const struct config *config;
     size_t jobs; /* designs evaluated at once, in processes of their own; 0, 1: in this one */
-    double job_seconds;   /* after which such a design has failed; 0: never */
+    double job_seconds;    /* after which such a design has failed; 0: never */
+    struct remote *remote; /* who solves instead, borrowed; NULL: this process */
     nurbs_hull *source;   /* the parent as it was read: every design has its length and tolerance */
     nurbs_grid *grid;     /* design grid on it */
     nurbs_grid *moved;    /* of the design at hand */

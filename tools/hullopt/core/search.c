@@ -6,6 +6,7 @@
 #include "core/descent.h"
 #include "core/jobs.h"
 #include "core/objective.h"
+#include "core/remote.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -131,8 +132,10 @@ bool search_step(struct search *s, struct evaluation *e, evaluate_look look, voi
 {
     if (!core_goes_on(s->watch))
         return false;
+    if (s->problem->remote)
+        remote_choose(s->problem->remote, 0);
     evaluate(s->problem, e, look, user_data);
-    return settle(s, e);
+    return (!s->problem->remote || remote_learn(s->problem->remote, e, s->watch)) && settle(s, e);
 }
 
 /* The next design of the library, started; *more false, with the reason on record, when there is
@@ -166,6 +169,27 @@ static bool loop(struct search *s, double *u)
     }
 }
 
+/* What the servers made of a design; one that has not answered in time is lost, and the design is
+ * given to another: *again. */
+static bool learn(struct search *s, struct job *job, bool *again)
+{
+    struct remote *remote = s->problem->remote;
+    *again = remote && job->late;
+    if (!remote)
+        return true;
+    if (*again) {
+        remote_choose(remote, job->slot);
+        job->evaluation.lost = (uint64_t)1 << remote->first;
+        snprintf(job->evaluation.lost_reason, REASON_SIZE, "no answer after %g s",
+                 s->problem->job_seconds);
+    }
+    bool ok = remote_learn(remote, &job->evaluation, s->watch);
+    struct evaluation *e = &job->evaluation;
+    if (ok && *again)
+        evaluation_start(e->id, e->phase, e->u, e);
+    return ok && (!*again || jobs_start(s->problem, job));
+}
+
 /* Several at once. What is at work when the run is to stop is waited for. */
 static bool loop_jobs(struct search *s)
 {
@@ -180,7 +204,8 @@ static bool loop_jobs(struct search *s)
             }
         search_show(s, NULL);
         job = jobs_wait(jobs, p->jobs, p->job_seconds);
-        if (job && !settle(s, &job->evaluation))
+        bool again = false;
+        if (job && (!learn(s, job, &again) || (!again && !settle(s, &job->evaluation))))
             break;
     }
     jobs_free(jobs, p->jobs);
@@ -214,7 +239,10 @@ bool search_run(struct problem *problem, struct record *record, const struct cor
 {
     struct search s = {.problem = problem, .record = record, .watch = watch};
     double *u = malloc(galv_model_modes(problem->model) * sizeof *u);
-    bool ok = (u || core_no_memory()) && begin(&s) && run_method(&s, u);
+    size_t modes = galv_model_modes(problem->model);
+    bool ok = (u || core_no_memory()) && begin(&s) &&
+              (!problem->remote || remote_check(problem->remote, &s.parent, modes)) &&
+              run_method(&s, u);
     free(u);
     return ok;
 }

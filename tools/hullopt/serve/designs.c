@@ -118,10 +118,14 @@ static bool evaluate_job(struct worker *w, const struct job *job)
 {
     const struct evaluation *parent = set_variant(w, job->variant);
     struct evaluation e;
+    if (!parent && atomic_load(&w->designs->is_stopping))
+        return served_fail(job->error, SERVED_STOPPING, STOPPING);
     if (!parent)
         return served_fail(job->error, SERVED_INVALID_OUTPUT, "%s", core_sentence());
     evaluation_start(1, "served", job->u, &e);
     evaluate(&w->problem, &e, NULL, NULL);
+    if (e.failed && atomic_load(&w->designs->is_stopping))
+        return served_fail(job->error, SERVED_STOPPING, STOPPING);
     if (e.failed)
         return served_fail(job->error, SERVED_INVALID_OUTPUT, "%s", e.reason);
     variant_output(job->variant, w->designs->config, parent, &e, job->output);
@@ -182,7 +186,7 @@ bool designs_evaluate(struct designs *d, const double *u, const struct variant *
     pthread_mutex_lock(&d->lock);
     if (atomic_load(&d->is_stopping)) {
         job.is_done = true;
-        served_fail(error, SERVED_INVALID_OUTPUT, STOPPING);
+        served_fail(error, SERVED_STOPPING, STOPPING);
     } else {
         *d->last = &job;
         d->last = &job.next;
@@ -197,6 +201,11 @@ bool designs_evaluate(struct designs *d, const double *u, const struct variant *
 size_t designs_modes(const struct designs *d)
 {
     return galv_model_modes(d->workers[0].problem.model);
+}
+
+const struct problem *designs_problem(const struct designs *d)
+{
+    return &d->workers[0].problem;
 }
 
 const double *designs_lower(const struct designs *d)
@@ -214,7 +223,7 @@ void designs_stop(struct designs *d)
     pthread_mutex_lock(&d->lock);
     atomic_store(&d->is_stopping, true);
     for (struct job *job = d->first; job; job = job->next) {
-        served_fail(job->error, SERVED_INVALID_OUTPUT, STOPPING);
+        served_fail(job->error, SERVED_STOPPING, STOPPING);
         job->is_done = true;
     }
     d->first = NULL;

@@ -14,6 +14,8 @@ struct designs *designs_start(const struct config *config, size_t n, int threads
 void designs_stop(struct designs *designs);
 void designs_free(struct designs *designs);
 
+/* That of one worker, as far as no evaluation changes it: grid and latent space. */
+const struct problem *designs_problem(const struct designs *designs);
 /* Latent variables and their box. */
 size_t designs_modes(const struct designs *designs);
 const double *designs_lower(const struct designs *designs);

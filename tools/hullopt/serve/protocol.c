@@ -11,14 +11,14 @@ enum {
     STATUS_INPUT = 400,
     STATUS_PATH = 404,
     STATUS_METHOD = 405,
-    STATUS_MODEL = 500
+    STATUS_MODEL = 500,
+    STATUS_STOPPING = 503
 };
 
 static const char *const FAULTS[SERVED_FAULTS] = {
-    [SERVED_INVALID_INPUT] = "InvalidInput",
-    [SERVED_MODEL_NOT_FOUND] = "ModelNotFound",
-    [SERVED_UNSUPPORTED] = "UnsupportedFeature",
-    [SERVED_INVALID_OUTPUT] = "InvalidOutput",
+    [SERVED_INVALID_INPUT] = "InvalidInput",     [SERVED_MODEL_NOT_FOUND] = "ModelNotFound",
+    [SERVED_UNSUPPORTED] = "UnsupportedFeature", [SERVED_INVALID_OUTPUT] = "InvalidOutput",
+    [SERVED_STOPPING] = "InvalidOutput",
 };
 
 bool served_fail(struct served_error *error, enum served_fault fault, const char *format, ...)
@@ -241,8 +241,10 @@ static unsigned post(size_t n, const struct served *models, size_t call, size_t 
     json_decref(request.body);
     if (ok)
         return finish(STATUS_OK, answer, text);
-    return refuse(error.fault == SERVED_INVALID_OUTPUT ? STATUS_MODEL : STATUS_INPUT, error.fault,
-                  error.sentence, text);
+    unsigned status = error.fault == SERVED_INVALID_OUTPUT ? STATUS_MODEL
+                      : error.fault == SERVED_STOPPING     ? STATUS_STOPPING
+                                                           : STATUS_INPUT;
+    return refuse(status, error.fault, error.sentence, text);
 }
 
 unsigned protocol_answer(size_t n, const struct served *models, const char *method,

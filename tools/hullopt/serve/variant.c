@@ -1,6 +1,7 @@
 #include "serve/variant.h"
 
 #include "core/constraints.h"
+#include "core/remote.h"
 
 #include <math.h>
 #include <string.h>
@@ -90,6 +91,9 @@ bool variant_read(const struct config *run, const json_t *config, struct variant
 void variant_apply(const struct variant *v, const struct config *run, struct config *config)
 {
     *config = *run;
+    config->displacement = NAN;
+    if (v->as_run)
+        return;
     config->solver.froude = v->froude[0];
     config->solver.formulation = v->formulation;
     config->solver.refine = v->refine;
@@ -97,13 +101,12 @@ void variant_apply(const struct variant *v, const struct config *run, struct con
     config->verify_froudes = v->n - 1;
     memcpy(config->verify_froude, v->froude + 1, (v->n - 1) * sizeof *v->froude);
     config->speeds = v->n > 1 ? INFINITY : NAN;
-    config->displacement = NAN;
 }
 
 bool variant_equal(const struct variant *a, const struct variant *b)
 {
-    return a->n == b->n && a->formulation == b->formulation && a->refine == b->refine &&
-           memcmp(a->froude, b->froude, a->n * sizeof *a->froude) == 0;
+    return a->as_run == b->as_run && a->n == b->n && a->formulation == b->formulation &&
+           a->refine == b->refine && memcmp(a->froude, b->froude, a->n * sizeof *a->froude) == 0;
 }
 
 /* What is told of a design beside resistance and constraints. */
@@ -145,6 +148,10 @@ static size_t count_constraints(const struct config *run)
 
 void variant_sizes(const struct variant *v, const struct config *run, size_t sizes[SERVED_OUTPUTS])
 {
+    if (v->as_run) {
+        remote_sizes(run, sizes);
+        return;
+    }
     sizes[0] = v->n;
     sizes[1] = count_constraints(run);
     sizes[2] = N_FIGURES;
@@ -154,6 +161,10 @@ void variant_output(const struct variant *v, const struct config *run,
                     const struct evaluation *parent, const struct evaluation *design,
                     double *output)
 {
+    if (v->as_run) {
+        remote_write(run, design, output);
+        return;
+    }
     *output++ = design->cw;
     for (size_t i = 1; i < v->n; i++)
         *output++ = design->cw_speed[i - 1];

@@ -6,6 +6,7 @@
 #include "serve/protocol.h"
 
 struct variant {
+    bool as_run; /* all that a run asks of a design, nothing changed; the rest is not used then */
     size_t n;
     double froude[1 + CONFIG_FROUDE_MOST];
     igabem_formulation formulation;

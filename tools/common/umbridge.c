@@ -1,9 +1,8 @@
 #include "umbridge.h"
 
-#include "cli.h"
-
 #include <curl/curl.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -64,6 +63,7 @@ static bool perform(CURL *curl, const char *url, const char *body, struct reques
     curl_easy_setopt(curl, CURLOPT_NOSIGNAL, 1L);
     curl_easy_setopt(curl, CURLOPT_PROTOCOLS_STR, "http,https");
     curl_easy_setopt(curl, CURLOPT_CONNECTTIMEOUT, (long)CONNECT_SECONDS);
+    curl_easy_setopt(curl, CURLOPT_TCP_KEEPALIVE, 1L); /* a machine that went away is noticed */
     curl_easy_setopt(curl, CURLOPT_WRITEFUNCTION, collect);
     curl_easy_setopt(curl, CURLOPT_WRITEDATA, &answer);
     if (body) {
@@ -111,14 +111,24 @@ static json_t *named(const struct umbridge *m)
     return json_pack("{s:s, s:O}", "name", m->name, "config", m->config);
 }
 
-static bool refuse(struct request *r)
+/* Fills the sentence and returns false. */
+__attribute__((format(printf, 2, 3))) static bool fail(char *sentence, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    vsnprintf(sentence, UMBRIDGE_SENTENCE, format, args);
+    va_end(args);
+    return false;
+}
+
+static bool refuse(struct request *r, char *sentence)
 {
     json_decref(r->root);
-    return cli_refuse("%s", r->reason);
+    return fail(sentence, "%s", r->reason);
 }
 
 /* Whether the server has the model. */
-static bool check_name(const struct umbridge *m)
+static bool check_name(const struct umbridge *m, char *sentence)
 {
     struct request r;
     size_t i;
@@ -126,7 +136,7 @@ static bool check_name(const struct umbridge *m)
     bool found = false;
     char known[200] = "";
     if (!request(m, "Info", NULL, &r))
-        return refuse(&r);
+        return refuse(&r, sentence);
     json_array_foreach(json_object_get(r.root, "models"), i, name)
     {
         const char *text = json_string_value(name);
@@ -136,18 +146,18 @@ static bool check_name(const struct umbridge *m)
             snprintf(known + used, sizeof known - used, "%s%s", used ? ", " : "", text);
     }
     json_decref(r.root);
-    return found || cli_refuse("objective.model is '%s'; %s has %s", m->name, m->url,
-                               *known ? known : "no models");
+    return found || fail(sentence, "%s has no model '%s', it has %s", m->url, m->name,
+                         *known ? known : "none");
 }
 
 static bool read_sizes(const struct umbridge *m, const char *call, const char *key, size_t *n,
-                       size_t **sizes)
+                       size_t **sizes, char *sentence)
 {
     struct request r;
     size_t i;
     const json_t *size;
     if (!request(m, call, named(m), &r))
-        return refuse(&r);
+        return refuse(&r, sentence);
     const json_t *list = json_object_get(r.root, key);
     *n = json_array_size(list);
     *sizes = calloc(*n + 1, sizeof **sizes);
@@ -160,7 +170,7 @@ static bool read_sizes(const struct umbridge *m, const char *call, const char *k
             (*sizes)[i] = (size_t)json_integer_value(size);
     }
     json_decref(r.root);
-    return ok || cli_refuse("%s: %s of '%s' is no list of sizes", m->url, key, m->name);
+    return ok || fail(sentence, "%s: %s of '%s' is no list of sizes", m->url, key, m->name);
 }
 
 static size_t total(size_t n, const size_t *sizes)
@@ -171,35 +181,35 @@ static size_t total(size_t n, const size_t *sizes)
     return sum;
 }
 
-bool umbridge_open(struct umbridge *m, const char *url, const char *name, const char *config,
-                   size_t d, size_t most)
+bool umbridge_open(struct umbridge *m, const char *url, const char *name, json_t *config, size_t d,
+                   size_t most, char *sentence)
 {
     struct request r;
     *m = (struct umbridge){.url = url, .name = name};
-    m->config = config ? json_loads(config, 0, NULL) : json_object();
+    m->config = config ? config : json_object();
     if (!m->config)
-        return cli_refuse("out of memory");
+        return fail(sentence, "out of memory");
     if (curl_global_init(CURL_GLOBAL_DEFAULT) != CURLE_OK)
-        return cli_refuse("libcurl does not start");
-    if (!check_name(m))
+        return fail(sentence, "libcurl does not start");
+    if (!check_name(m, sentence))
         return false;
     if (!request(m, "ModelInfo", json_pack("{s:s}", "name", name), &r))
-        return refuse(&r);
+        return refuse(&r, sentence);
     const json_t *support = json_object_get(r.root, "support");
     bool evaluates = json_is_true(json_object_get(support, "Evaluate"));
     m->has_gradient = json_is_true(json_object_get(support, "Gradient"));
     json_decref(r.root);
     if (!evaluates)
-        return cli_refuse("%s: '%s' cannot be evaluated", url, name);
-    if (!read_sizes(m, "InputSizes", "inputSizes", &m->n_inputs, &m->inputs) ||
-        !read_sizes(m, "OutputSizes", "outputSizes", &m->n_outputs, &m->outputs))
+        return fail(sentence, "%s: '%s' cannot be evaluated", url, name);
+    if (!read_sizes(m, "InputSizes", "inputSizes", &m->n_inputs, &m->inputs, sentence) ||
+        !read_sizes(m, "OutputSizes", "outputSizes", &m->n_outputs, &m->outputs, sentence))
         return false;
     if (total(m->n_inputs, m->inputs) != d)
-        return cli_refuse("%s: '%s' takes %zu numbers, the file has %zu variables", url, name,
-                          total(m->n_inputs, m->inputs), d);
+        return fail(sentence, "%s: '%s' takes %zu numbers, expected one for each of %zu variables",
+                    url, name, total(m->n_inputs, m->inputs), d);
     if (total(m->n_outputs, m->outputs) < most)
-        return cli_refuse("%s: '%s' gives %zu numbers, the file asks for number %zu", url, name,
-                          total(m->n_outputs, m->outputs), most);
+        return fail(sentence, "%s: '%s' gives %zu numbers, expected %zu at least", url, name,
+                    total(m->n_outputs, m->outputs), most);
     return true;
 }
 
@@ -223,11 +233,13 @@ static json_t *inputs_json(const struct umbridge *m, const double *x)
     return input;
 }
 
-/* A server that is not there, or says that it is overloaded, is lost; the rest is the model's or
- * the point's. */
+/* A server that is not there, says that it is overloaded, or something else in its place answers,
+ * is lost; the rest is the model's or the point's. */
 static int classify(const struct request *r)
 {
-    bool lost = r->status == 0 || r->status == 429 || (r->status >= 502 && r->status <= 504);
+    bool told = json_is_object(json_object_get(r->root, "error"));
+    bool lost = r->status == 0 || r->status == 429 || (r->status >= 502 && r->status <= 504) ||
+                (!told && (r->status < 400 || r->status >= 500));
     return lost                                  ? UMBRIDGE_LOST
            : r->status >= 400 && r->status < 500 ? UMBRIDGE_INPUT
                                                  : UMBRIDGE_MODEL;
@@ -313,4 +325,35 @@ int umbridge_evaluate(const struct umbridge *m, const double *x, size_t gradient
     }
     json_decref(r.root);
     return gradient ? print_gradient(m, x, gradient, out, err) : 0;
+}
+
+/* The numbers of an answer; false when they are not as many, or not all numbers. */
+static bool read_outputs(const struct umbridge *m, const json_t *output, double *values)
+{
+    bool ok = json_array_size(output) == m->n_outputs;
+    for (size_t i = 0; i < m->n_outputs && ok; i++) {
+        const json_t *vector = json_array_get(output, i);
+        ok = json_array_size(vector) == m->outputs[i];
+        for (size_t k = 0; k < m->outputs[i] && ok; k++) {
+            const json_t *value = json_array_get(vector, k);
+            ok = json_is_number(value);
+            *values++ = json_number_value(value);
+        }
+    }
+    return ok;
+}
+
+int umbridge_numbers(const struct umbridge *m, const double *x, double *output, char *sentence)
+{
+    struct request r;
+    json_t *body = named(m);
+    json_object_set_new(body, "input", inputs_json(m, x));
+    int status = request(m, "Evaluate", body, &r) ? 0 : classify(&r);
+    if (status == 0 && !read_outputs(m, json_object_get(r.root, "output"), output)) {
+        snprintf(r.reason, sizeof r.reason, "%s: no numbers, or not as many as it said", m->url);
+        status = UMBRIDGE_LOST;
+    }
+    fail(sentence, "%s", r.reason);
+    json_decref(r.root);
+    return status;
 }
