@@ -234,8 +234,9 @@ static galv_status check_array(const struct row *row, const galv_field *field,
     if (columns && rows > SIZE_MAX / sizeof(double) / columns)
         return galv_fail(GALV_ERROR_ARGUMENT, "'%s' is %zu x %zu", row->name, rows, columns);
     const double *values = field->values;
-    bool positive = row->offset == AT(eigenvalues) || row->offset == AT(weights);
-    bool falling = row->offset == AT(eigenvalues);
+    /* Of the parameters themselves they stand in the order of these; one may move nothing. */
+    bool falling = row->offset == AT(eigenvalues) && model->method != GALV_METHOD_PARAMETERS;
+    bool positive = falling || row->offset == AT(weights);
     for (size_t i = 0; i < rows * columns; i++)
         if (!isfinite(values[i]) || (positive && !(values[i] > 0)) ||
             (falling && i > 0 && values[i] > values[i - 1]))

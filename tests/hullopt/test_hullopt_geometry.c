@@ -130,13 +130,13 @@ static void test_restored(void)
     CU_ASSERT_TRUE(isnan(again.speeds));
     CU_ASSERT_EQUAL(again.solver.formulation, IGABEM_FORMULATION_HOGNER);
     CU_ASSERT_EQUAL(again.initial, 8);
-    say_why(problem_restore(&again, model, grid, problem_length(&problem), &back));
+    say_why(problem_restore(&again, model, grid, problem_length(&problem), NULL, &back));
     CU_ASSERT_EQUAL(nurbs_hull_hydrostatics(back.parent.hull)->volume,
                     nurbs_hull_hydrostatics(problem.parent.hull)->volume);
     problem_free(&back);
     CU_ASSERT_EQUAL_FATAL(galv_model_restore(n, fields, &model), GALV_OK);
     grid[0] = 20;
-    CU_ASSERT_FALSE(problem_restore(&again, model, grid, 1, &back));
+    CU_ASSERT_FALSE(problem_restore(&again, model, grid, 1, NULL, &back));
     CU_ASSERT_PTR_NOT_NULL(strstr(core_sentence(), "20 x 9"));
     config_free(&again);
     CU_ASSERT_FALSE(config_restore("colour = red\n", &again));

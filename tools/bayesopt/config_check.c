@@ -28,7 +28,7 @@ static void check_templates(struct settings_source *source, const struct config 
         const char *path = c->templates[i], *slash = strrchr(path, '/');
         const char *name = slash ? slash + 1 : path;
         size_t length;
-        char *text = template_read(path, &length);
+        char *text = cli_read(path, &length);
         if (!text)
             settings_complain(source, "objective.template", "is '%s': %s", path, strerror(errno));
         check_fields(source, "objective.template", text, text ? length : 0, names);

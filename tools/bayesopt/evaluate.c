@@ -1,26 +1,17 @@
 #include "evaluate.h"
 
 #include "cli.h"
+#include "program.h"
 #include "result.h"
 #include "template.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#ifdef __linux__
-#include <sys/prctl.h>
-#endif
-#include <sys/resource.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-/* Of the program's last words in a reason. */
-enum { MOST_WORDS = 200 };
 
 static char *fill_command(const struct config *c, const struct template_values *values)
 {
@@ -39,91 +30,16 @@ static char *fill_command(const struct config *c, const struct template_values *
     return NULL;
 }
 
-/* A folder of the evaluation's number; when there is one, of an earlier attempt or another study,
- * the number gets a second one behind it. */
+/* A folder of the evaluation's number; where there is one, of an earlier attempt or another study.
+ */
 static bool make_folder(const struct config *c, struct evaluation *e)
 {
     char *parent = config_folder(c);
-    bool made = false, ok = parent && (mkdir(parent, 0777) == 0 || errno == EEXIST);
-    int at =
-        ok ? snprintf(e->folder, sizeof e->folder, "%s/%06llu", parent, (unsigned long long)e->id)
-           : 0;
-    size_t left = at > 0 && (size_t)at < sizeof e->folder ? sizeof e->folder - (size_t)at : 0;
-    for (unsigned k = 2; ok && !made; k++) {
-        if (left < 16) {
-            errno = ENAMETOOLONG;
-            ok = false;
-        } else if (!(made = mkdir(e->folder, 0777) == 0)) {
-            ok = errno == EEXIST && k < 1000000;
-            snprintf(e->folder + at, left, ".%u", k);
-        }
-    }
+    bool ok = parent && program_folder(parent, e->id, e->folder, sizeof e->folder);
     if (!ok)
-        cli_fail("%s: %s", at ? e->folder : parent ? parent : "", strerror(errno));
+        cli_fail("%s: %s", parent ? parent : "", strerror(errno));
     free(parent);
     return ok;
-}
-
-/* Output files and no input, in the working folder. */
-static bool redirect(const struct evaluation *e)
-{
-    if (chdir(e->folder) != 0)
-        return false;
-    int out = open("stdout", O_WRONLY | O_CREAT | O_TRUNC, 0666);
-    int err = open("stderr", O_WRONLY | O_CREAT | O_TRUNC, 0666);
-    int in = open("/dev/null", O_RDONLY);
-    return out >= 0 && err >= 0 && in >= 0 && dup2(in, 0) >= 0 && dup2(out, 1) >= 0 &&
-           dup2(err, 2) >= 0;
-}
-
-static void kill_group(int signal_number)
-{
-    (void)signal_number;
-    kill(0, SIGKILL);
-}
-
-/* In the child: a process group of its own, to be killed as one, and a signal when the driver dies.
- * Scripts that end with 'kill 0' mean their own children, so SIGTERM is not that signal. */
-static void become_keeper(pid_t driver)
-{
-    setpgid(0, 0);
-    signal(SIGUSR2, kill_group);
-    signal(SIGTERM, SIG_IGN);
-    signal(SIGINT, SIG_DFL);
-#ifdef __linux__
-    prctl(PR_SET_PDEATHSIG, SIGUSR2);
-#endif
-    if (getppid() != driver) /* it has died already */
-        kill(0, SIGKILL);
-}
-
-/* Waits for the command and ends as it did. */
-static void end_like(pid_t process)
-{
-    int status;
-    while (waitpid(process, &status, 0) < 0)
-        if (errno != EINTR)
-            _exit(127);
-    if (!WIFSIGNALED(status))
-        _exit(WEXITSTATUS(status));
-    struct rlimit none = {0, 0};
-    setrlimit(RLIMIT_CORE, &none);
-    signal(WTERMSIG(status), SIG_DFL);
-    raise(WTERMSIG(status));
-    _exit(128 + WTERMSIG(status));
-}
-
-static void become_command(const struct evaluation *e, const char *command)
-{
-    pid_t process = redirect(e) ? fork() : -1;
-    if (process > 0)
-        end_like(process);
-    if (process < 0)
-        _exit(127);
-    signal(SIGUSR2, SIG_DFL);
-    signal(SIGTERM, SIG_DFL);
-    execl("/bin/sh", "sh", "-c", command, (char *)NULL);
-    _exit(127);
 }
 
 /* Ordinal values as the numbers that they are called. */
@@ -132,7 +48,7 @@ static void become_request(const struct config *c, const struct umbridge *model,
 {
     double *x = malloc(c->names.d * sizeof *x);
     char buffer[VALUE_SIZE];
-    bool ok = x && redirect(e);
+    bool ok = x && program_enter(e->folder);
     for (size_t j = 0; j < c->names.d && ok; j++)
         if (!cli_parse_double(names_value(&c->names, j, e->x[j], buffer), &x[j]))
             x[j] = e->x[j];
@@ -149,22 +65,15 @@ bool evaluation_start(const struct config *c, const struct umbridge *model, stru
     for (size_t i = 0; i < c->n_templates && ok; i++)
         ok = template_copy(c->templates[i], e->folder, &values);
     if (ok) {
-        pid_t driver = getpid();
-        fflush(NULL); /* a copy of what is not written yet would be written twice */
         e->timed_out = false;
         e->started = cli_seconds();
-        e->process = fork();
-        if (e->process == 0) {
-            become_keeper(driver);
-            if (model)
-                become_request(c, model, e);
-            else
-                become_command(e, command);
-        }
+        e->process = program_fork();
+        if (e->process == 0 && model)
+            become_request(c, model, e);
+        else if (e->process == 0)
+            program_become(e->folder, command);
         ok = e->process > 0;
-        if (ok)
-            setpgid(e->process, e->process); /* in both, whichever comes first */
-        else
+        if (!ok)
             cli_fail("starting a process: %s", strerror(errno));
     }
     free(command);
@@ -175,7 +84,7 @@ void evaluation_check_time(const struct config *c, struct evaluation *e)
 {
     if (!e->timed_out && cli_seconds() - e->started > c->timeout) {
         e->timed_out = true;
-        kill(-e->process, SIGKILL);
+        program_kill(e->process);
     }
 }
 
@@ -183,30 +92,9 @@ void evaluation_check_time(const struct config *c, struct evaluation *e)
  * point: that is noted. */
 static char *read_file(const struct evaluation *e, const char *name, struct outcome *o)
 {
-    size_t length;
-    char *path = malloc(strlen(e->folder) + strlen(name) + 2), *text = NULL;
-    if (path) {
-        sprintf(path, "%s/%s", e->folder, name);
-        text = template_read(path, &length);
-    }
+    char *text = program_read(e->folder, name);
     o->no_memory = o->no_memory || (!text && errno == ENOMEM);
-    for (size_t i = 0; text && i < length; i++)
-        if (!text[i])
-            text[i] = ' ';
-    free(path);
     return text;
-}
-
-/* The program's own last words, of stderr or else of stdout, behind a reason. */
-static void add_words(struct outcome *o, const char *err, const char *out)
-{
-    size_t used = strlen(o->reason), length = 0;
-    const char *line = err ? result_last_line(err, &length) : NULL;
-    if (!length && out && o->kind != OUTCOME_UNREAD)
-        line = result_last_line(out, &length);
-    if (length)
-        snprintf(o->reason + used, sizeof o->reason - used, ": %.*s",
-                 (int)(length < MOST_WORDS ? length : MOST_WORDS), line);
 }
 
 /* The numbers that a request has printed. */
@@ -297,7 +185,7 @@ bool evaluation_read(const struct config *c, const struct umbridge *model,
     }
     if (o->kind != OUTCOME_DONE) {
         o->transient = is_transient(c, o, err, out);
-        add_words(o, err, out);
+        program_add_words(err, o->kind == OUTCOME_UNREAD ? NULL : out, o->reason, sizeof o->reason);
     }
     free(out);
     free(err);

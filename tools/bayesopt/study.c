@@ -18,7 +18,7 @@ static char *join_templates(const struct config *c)
     bool ok = out != NULL;
     for (size_t i = 0; i < c->n_templates && ok; i++) {
         size_t length;
-        char *text = template_read(c->templates[i], &length);
+        char *text = cli_read(c->templates[i], &length);
         ok = text != NULL || cli_refuse("%s: %s", c->templates[i], strerror(errno));
         if (ok)
             fputs(text, out);

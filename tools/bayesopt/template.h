@@ -2,6 +2,7 @@
 #ifndef BAYESOPT_TOOL_TEMPLATE_H
 #define BAYESOPT_TOOL_TEMPLATE_H
 
+#include "fields.h"
 #include "names.h"
 
 #include <stdbool.h>
@@ -24,9 +25,6 @@ void template_write(const char *text, size_t length, const struct template_value
 /* The first {word} that is no field, or NULL; *field is its length, braces included. */
 const char *template_unknown(const char *text, size_t length, const struct names *names,
                              size_t *field);
-
-/* A whole file; NULL with errno. The caller frees. */
-char *template_read(const char *path, size_t *length);
 
 /* Copies a template into a folder, under its own name, filled in. Prints the sentence on failure.
  */

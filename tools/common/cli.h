@@ -91,6 +91,9 @@ bool cli_file_open(struct cli_file *file, const char *path);
 bool cli_file_commit(struct cli_file *file);
 void cli_file_abandon(struct cli_file *file);
 
+/* A whole file, with a zero behind it; NULL with errno. The caller frees. */
+char *cli_read(const char *path, size_t *length);
+
 /* A CSV table of numbers with a header line; '#' lines are comments. Columns are found by name; of
  * a file whose first line is numbers alone the columns have no names. */
 struct cli_table {

@@ -167,3 +167,25 @@ void cli_file_abandon(struct cli_file *file)
     free(file->path);
     *file = (struct cli_file){NULL, NULL, NULL};
 }
+
+char *cli_read(const char *path, size_t *length)
+{
+    FILE *file = fopen(path, "rb");
+    char *text = NULL;
+    FILE *out = file ? open_memstream(&text, length) : NULL;
+    char buffer[4096];
+    size_t n;
+    while (out && (n = fread(buffer, 1, sizeof buffer, file)) > 0)
+        fwrite(buffer, 1, n, out);
+    bool ok = out && !ferror(file);
+    if (out && (ferror(out) | (fclose(out) != 0) || !text)) {
+        errno = ENOMEM;
+        ok = false;
+    }
+    if (file)
+        fclose(file);
+    if (ok)
+        return text;
+    free(text);
+    return NULL;
+}

@@ -1,6 +1,7 @@
 #include "config.h"
 
 #include "cli.h"
+#include "fields.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -51,9 +52,27 @@ static const char *method(int value)
 
 static const struct setting ROWS[] = {
     ROW("name", TEXT, name, "title of the report", .otherwise = "Hull form optimisation"),
-    ROW("hull", FILE, hull, "the hull: one NURBS patch of its port side, up to the deck",
-        .required = true),
-    ROW("shape", FILE, shape, "how it may be modified", .required = true),
+    ROW("hull", FILE, hull, "the hull: any file that nurbs reads", .otherwise = NULL),
+    ROW("shape", FILE, shape, "how it may be modified", .otherwise = NULL),
+    ROW("parameters.command", TEXT, maker.command,
+        "in place of hull and shape: what makes the hull of the parameters, {name} for each, in a "
+        "folder of its own; {here}: the folder of this file",
+        .otherwise = NULL),
+    ROW("parameters.file", TEXT, maker.file, "the hull that it writes there",
+        .otherwise = "hull.json"),
+    ROW("parameters.names", TEXT, parameter, "of the parameters", .n_most = CONFIG_PARAMETERS_MOST,
+        .count = offsetof(struct config, n_parameters)),
+    ROW("parameters.original", NUMBER, original, "their values in the original",
+        .n_most = CONFIG_PARAMETERS_MOST, .count = offsetof(struct config, n_original)),
+    ROW("parameters.lower", NUMBER, lower, "and from what", .n_most = CONFIG_PARAMETERS_MOST,
+        .count = offsetof(struct config, n_lower)),
+    ROW("parameters.upper", NUMBER, upper, "to what they may go", .n_most = CONFIG_PARAMETERS_MOST,
+        .count = offsetof(struct config, n_upper)),
+    ROW("parameters.timeout", NUMBER, maker.timeout, "s after which the design has failed",
+        SETTING_ABOVE(0), .otherwise = "600"),
+    ROW("folder", TEXT, folder,
+        "where commands work, a numbered folder each time; relative to the folder of this file",
+        .otherwise = "evaluations"),
     ROW("grid.sections", COUNT, sections, "points of the design grid along the hull",
         SETTING_FROM(4, 2000), .words = AS_IN_FILE, .otherwise = "0"),
     ROW("grid.girth", COUNT, girth, "and around it", SETTING_FROM(4, 2000), .words = AS_IN_FILE,
@@ -124,6 +143,17 @@ static const struct setting ROWS[] = {
     ROW("objective.weights", NUMBER, weight,
         "of its values at flow.froude and at each of verification.froude", SETTING_FROM(0, 1e6),
         .n_most = 1 + CONFIG_FROUDE_MOST, .count = offsetof(struct config, weights)),
+    ROW("objective.command", TEXT, judge.command,
+        "what prints the number that is lowered instead, of the hull in the file {hull}; in a "
+        "folder of its own",
+        .otherwise = NULL),
+    ROW("objective.file", TEXT, judge.file,
+        "name of {hull}; its end says how it is written: .igs, .step, .json, .stl",
+        .otherwise = "hull.igs"),
+    ROW("objective.key", TEXT, judge.key,
+        "what stands before the number; by default it is the last one printed", .otherwise = NULL),
+    ROW("objective.timeout", NUMBER, judge.timeout, "s after which the design has failed",
+        SETTING_ABOVE(0), .otherwise = "3600"),
     ROW("solver.formulation", CHOICE, solver.formulation, "what is solved", .choice = formulation),
     ROW("solver.refine", INTEGER, solver.refine, "parts of every knot span", SETTING_FROM(1, 16),
         .otherwise = "1"),
@@ -232,9 +262,113 @@ static void check_objective(struct settings_source *source, const struct config 
                           method_row(c->method)->name);
 }
 
+static bool is_field(const char *name, size_t length, const char *field)
+{
+    return strlen(field) == length && strncmp(name, field, length) == 0;
+}
+
+bool config_field(void *user_data, const char *name, size_t length, FILE *out)
+{
+    const struct config_fields *f = user_data;
+    size_t k = 0;
+    while (k < f->config->n_parameters && !is_field(name, length, f->config->parameter[k]))
+        k++;
+    bool parameter = k < f->config->n_parameters, here = is_field(name, length, "here");
+    bool hull = f->hull && is_field(name, length, "hull");
+    if (out && parameter)
+        fprintf(out, "%.17g", f->x[k]);
+    else if (out && (here || hull))
+        fputs(here ? f->here : f->hull, out);
+    return parameter || here || hull;
+}
+
+static void check_command(struct settings_source *source, const char *key,
+                          const struct config_command *command, struct config_fields fields)
+{
+    size_t length;
+    if (!command->command)
+        return;
+    const char *unknown =
+        fields_unknown(command->command, strlen(command->command), config_field, &fields, &length);
+    if (unknown)
+        settings_complain(source, key, "has %.*s, expected {here}%s%s", (int)length, unknown,
+                          fields.hull ? ", {hull}" : "",
+                          fields.config->n_parameters ? " and the names of parameters" : "");
+    if (!command->file || !*command->file || strchr(command->file, '/'))
+        settings_complain(source, key, "needs a file, a name without folders");
+}
+
+/* A name is a word, and one parameter's alone. */
+static void check_names(struct settings_source *source, const struct config *c)
+{
+    static const char key[] = "parameters.names", reserved[] = "is a word of its own";
+    for (size_t k = 0; k < c->n_parameters; k++) {
+        const char *name = c->parameter[k];
+        size_t length = strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                     "0123456789_");
+        if (!*name || name[length] || (*name >= '0' && *name <= '9'))
+            settings_complain(source, key, "has '%s', expected letters, digits and _", name);
+        if (strcmp(name, "here") == 0 || strcmp(name, "hull") == 0)
+            settings_complain(source, key, "has '%s', which %s", name, reserved);
+        for (size_t i = 0; i < k; i++)
+            if (strcmp(name, c->parameter[i]) == 0)
+                settings_complain(source, key, "has '%s' twice", name);
+    }
+}
+
+/* Where the hull and its designs are from. */
+static void check_hull(struct settings_source *source, const struct config *c)
+{
+    if (!c->maker.command) {
+        if (!c->hull)
+            settings_complain(source, "hull", "is missing: the hull's file, or parameters.command");
+        if (!c->shape)
+            settings_complain(source, "shape", "is missing: how the hull may be modified");
+        if (c->n_parameters)
+            settings_complain(source, "parameters", "need parameters.command");
+        return;
+    }
+    if (c->hull || c->shape)
+        settings_complain(source, c->hull ? "hull" : "shape",
+                          "is given, and so is parameters.command: expected one of them");
+    if (!c->n_parameters || c->n_original != c->n_parameters || c->n_lower != c->n_parameters ||
+        c->n_upper != c->n_parameters) {
+        settings_complain(source, "parameters",
+                          "have %zu names, %zu values of the original, %zu lower and %zu upper "
+                          "ends, expected as many of each",
+                          c->n_parameters, c->n_original, c->n_lower, c->n_upper);
+        return;
+    }
+    check_names(source, c);
+    for (size_t k = 0; k < c->n_parameters; k++)
+        if (!(c->lower[k] < c->original[k] && c->original[k] < c->upper[k]))
+            settings_complain(source, "parameters.original",
+                              "has %g for %s, expected between %g and %g", c->original[k],
+                              c->parameter[k], c->lower[k], c->upper[k]);
+    if (method_row(c->method)->kind == METHOD_DESCENT || c->design == CONFIG_DESIGN_FORECAST)
+        settings_complain(source, "search",
+                          "is by derivatives, which the hulls of a command have not");
+}
+
+static void check_commands(struct settings_source *source, const struct config *c)
+{
+    check_hull(source, c);
+    check_command(source, "parameters.command", &c->maker, (struct config_fields){.config = c});
+    check_command(source, "objective.command", &c->judge,
+                  (struct config_fields){.config = c, .hull = ""});
+    if (c->judge.command && (c->weights || c->quantity != QUANTITY_CW || c->models))
+        settings_complain(source, "objective.command",
+                          "is lowered alone, without objective.quantity, objective.weights and "
+                          "search.models");
+    if (c->judge.command && method_row(c->method)->kind == METHOD_DESCENT)
+        settings_complain(source, "objective.command", "is not for %s, which needs derivatives",
+                          method_row(c->method)->name);
+}
+
 static void check(struct settings_source *source, void *target)
 {
     const struct config *c = target;
+    check_commands(source, c);
     check_objective(source, c);
     for (size_t i = 0; i < c->models; i++)
         if (c->model[i] == IGABEM_FORMULATION_AUTO || c->model[i] == c->solver.formulation)
@@ -255,6 +389,18 @@ static void check(struct settings_source *source, void *target)
 
 const struct settings CONFIG = {sizeof ROWS / sizeof *ROWS, ROWS, .check = check};
 
+/* For messages: the original of a command has no file. */
+static bool name_hull(struct config *config)
+{
+    if (!config->maker.command)
+        return true;
+    free(config->hull);
+    free(config->shape);
+    config->hull = strdup("parameters.command");
+    config->shape = strdup("parameters.command");
+    return config->hull && config->shape;
+}
+
 bool config_read(const char *path, const struct config_overrides *overrides, struct config *config)
 {
     *config = (struct config){.path = strdup(path)};
@@ -267,6 +413,7 @@ bool config_read(const char *path, const struct config_overrides *overrides, str
         config->iterations = (size_t)overrides->iterations;
     ok = ok && ((config->text = settings_text(&CONFIG, config)) != NULL ||
                 cli_refuse("%s: an input file cannot be read", path));
+    ok = ok && name_hull(config);
     if (!ok)
         config_free(config);
     return ok;
@@ -278,7 +425,7 @@ bool config_restore(const char *text, struct config *config)
     *config = (struct config){.text = strdup(text)};
     igabem_options_init(&config->solver);
     settings_start(&CONFIG, config);
-    bool ok = config->text && settings_restore(&CONFIG, text, config, &line);
+    bool ok = config->text && settings_restore(&CONFIG, text, config, &line) && name_hull(config);
     if (!ok)
         config_free(config);
     return ok;

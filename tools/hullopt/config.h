@@ -12,18 +12,36 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 /* What is lowered: objective.quantity. */
 enum quantity { QUANTITY_CW, QUANTITY_WAVE, QUANTITY_TOTAL };
 
+enum { CONFIG_PARAMETERS_MOST = 100, CONFIG_PATH = 600 /* of a file of a command */ };
 enum { CONFIG_FROUDE_MOST = 8, CONFIG_MODELS_MOST = 4, CONFIG_PLACES_MOST = 40, PARTICULARS = 19 };
 
 enum { CONFIG_DESIGN_FORECAST = BAYESOPT_DESIGN_STLBO + 1 };
 
+/* A command of somebody else, run in a fresh folder. */
+struct config_command {
+    char *command;  /* with {fields}; NULL: there is none */
+    char *file;     /* in the folder: the hull that it writes, or reads */
+    char *key;      /* before the number that it prints; NULL: the last one */
+    double timeout; /* s */
+};
+
 struct config {
     char *path;         /* of the YAML file; the paths below are resolved against its folder */
     char *name;         /* title of the report */
-    char *hull, *shape; /* files */
+    char *hull, *shape; /* files; of a hull by command the second is NULL */
+
+    struct config_command maker; /* in place of hull and shape: of parameters, */
+    size_t n_parameters, n_original, n_lower, n_upper;
+    char *parameter[CONFIG_PARAMETERS_MOST]; /* by name, each from lower to upper */
+    double original[CONFIG_PARAMETERS_MOST], lower[CONFIG_PARAMETERS_MOST],
+        upper[CONFIG_PARAMETERS_MOST];
+    struct config_command judge; /* of what is lowered */
+    char *folder;                /* where commands work */
 
     size_t sections, girth; /* design grid; 0: the one that the hull file keeps */
     size_t samples;         /* of the latent space */
@@ -76,6 +94,14 @@ bool config_read(const char *path, const struct config_overrides *overrides, str
  * for a text that no version of this command wrote. */
 bool config_restore(const char *text, struct config *config);
 void config_free(struct config *config);
+
+/* What the fields of a command stand for: a fields_value with a struct config_fields. */
+struct config_fields {
+    const struct config *config;
+    const double *x;         /* [n_parameters] */
+    const char *here, *hull; /* folder of the configuration; the hull to judge, or NULL */
+};
+bool config_field(void *fields, const char *name, size_t length, FILE *out);
 
 /* First line in which two canonical texts differ, as "SIDE '...', SIDE '...'" in sentence[size];
  * false when they are equal. */

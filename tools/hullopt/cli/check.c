@@ -3,7 +3,6 @@
 #include "core/constraints.h"
 #include "core/search.h"
 #include "json_result.h"
-#include "shape_yaml.h"
 
 #include <jansson.h>
 #include <math.h>
@@ -35,9 +34,7 @@ static bool read_plan(const struct options *options, struct plan *p)
         return false;
     if (!problem_read(&p->config, &p->problem))
         return cli_refuse("%s", core_sentence());
-    const nurbs_grid *grid = p->problem.grid;
-    p->shape = shape_yaml_read(p->config.shape, nurbs_grid_rows(grid) * nurbs_grid_columns(grid),
-                               nurbs_grid_points(grid));
+    p->shape = problem_shape(&p->problem);
     if (!p->shape)
         return false;
     evaluation_start(0, "parent", NULL, &p->parent);
@@ -81,9 +78,13 @@ static void print_hull(const struct plan *p)
     printf("%-16s%zu x %zu control points, within %.2g m of the hull\n", "patch",
            nurbs_surface_size(patch, 0), nurbs_surface_size(patch, 1),
            nurbs_hull_bound(problem->parent.hull));
-    printf("%-16s%s: %zu parameters\n%-16s%zu samples, %.4g %% of the variance\n", "shape",
-           p->config.shape, galv_shape_parameters(p->shape), "latent space", p->config.samples,
-           100 * p->config.variance);
+    if (p->config.maker.command)
+        printf("%-16s%s\n%-16s%zu, which are searched directly\n", "command",
+               p->config.maker.command, "parameters", p->config.n_parameters);
+    else
+        printf("%-16s%s: %zu parameters\n%-16s%zu samples, %.4g %% of the variance\n", "shape",
+               p->config.shape, galv_shape_parameters(p->shape), "latent space", p->config.samples,
+               100 * p->config.variance);
 }
 
 static void print_solver(const struct plan *p)
@@ -94,6 +95,8 @@ static void print_solver(const struct plan *p)
            igabem_formulation_name(o->formulation), o->cutoff_angle, o->stem_limit);
     printf("%-16s%zu unknowns\n%-16sC_w %.4e, %.2f s\n", "mesh", p->parent.dofs, "original",
            p->parent.cw, p->parent.geometry_seconds + p->parent.solve_seconds);
+    if (p->config.judge.command)
+        printf("%-16s%s: %.6g\n", "objective", p->config.judge.command, p->parent.value);
     for (size_t k = 0; k < constraints_count(); k++) {
         struct constraint_figures f;
         constraints_figures(&p->config, k, &p->parent, &p->parent, &f);

@@ -3,7 +3,6 @@
 #include "core/constraints.h"
 #include "core/objective.h"
 #include "json_result.h"
-#include "shape_yaml.h"
 
 #include <jansson.h>
 #include <math.h>
@@ -17,6 +16,7 @@ struct asked {
     galv_shape *shape;
     struct evaluation parent, design;
     double *points; /* of the moved grid */
+    double *u;      /* parameters of a command, less the original's; or NULL */
 };
 
 static bool read_problem(const struct options *options, struct asked *a)
@@ -27,7 +27,7 @@ static bool read_problem(const struct options *options, struct asked *a)
         return cli_refuse("%s", core_sentence());
     const nurbs_grid *grid = a->problem.grid;
     size_t points = nurbs_grid_rows(grid) * nurbs_grid_columns(grid);
-    a->shape = shape_yaml_read(a->config.shape, points, nurbs_grid_points(grid));
+    a->shape = problem_shape(&a->problem);
     a->points = malloc(3 * points * sizeof *a->points);
     return a->shape && (a->points || cli_refuse("out of memory"));
 }
@@ -36,6 +36,22 @@ static bool check_count(const char *option, size_t given, size_t expected)
 {
     return given == expected ||
            cli_refuse("--%s has %zu numbers, expected %zu", option, given, expected);
+}
+
+/* Of a command: what is evaluated is its hull, moved from the original. */
+static bool set_parameters(const struct options *options, struct asked *a)
+{
+    const struct config *c = &a->config;
+    if (options->n_latent)
+        return cli_refuse("--latent: the hulls of parameters.command have parameters alone");
+    a->u = malloc(c->n_parameters * sizeof *a->u);
+    for (size_t k = 0; a->u && k < c->n_parameters; k++) {
+        a->u[k] = options->parameters[k] - c->original[k];
+        if (!(options->parameters[k] >= c->lower[k] && options->parameters[k] <= c->upper[k]))
+            return cli_refuse("--parameters: %s is %g, expected %g to %g", c->parameter[k],
+                              options->parameters[k], c->lower[k], c->upper[k]);
+    }
+    return a->u || cli_refuse("out of memory");
 }
 
 /* In the space of the run, so that a design has the figures that a run would give it. */
@@ -50,6 +66,8 @@ static bool move_points(const struct options *options, struct asked *a)
         return false;
     if (!problem_reduce(p, a->shape, &nobody))
         return cli_refuse("%s", core_sentence());
+    if (p->config->maker.command)
+        return set_parameters(options, a);
     if (options->n_latent)
         return check_count("latent", options->n_latent, galv_model_modes(p->model)) &&
                (galv_displace(p->model, options->latent, a->points) == GALV_OK ||
@@ -69,8 +87,11 @@ static bool evaluate_both(struct asked *a)
     if (a->parent.failed)
         return cli_refuse("%s: the original cannot be evaluated (%s)", a->config.hull,
                           a->parent.reason);
-    evaluation_start(1, "asked", NULL, &a->design);
-    evaluate_points(&a->problem, a->points, &a->design);
+    evaluation_start(1, "asked", a->u, &a->design);
+    if (a->u)
+        evaluate(&a->problem, &a->design, NULL, NULL);
+    else
+        evaluate_points(&a->problem, a->points, &a->design);
     return true;
 }
 
@@ -122,6 +143,8 @@ static json_t *result(const struct asked *a)
     json_result_set(o, "reason", json_string(e->reason));
     json_result_set(o, "allowed", json_boolean(allowed));
     put(o, "objective", objective_ratio(a));
+    if (a->config.judge.command)
+        put(o, "value", e->value);
     put(o, "cw", e->cw);
     put(o, "cw_parent", a->parent.cw);
     put(o, "cw_pressure", e->cw_pressure);
@@ -165,6 +188,7 @@ int evaluate_command(const struct options *options)
     else if (ok && !options->json)
         ok = print_text(&a);
     free(a.points);
+    free(a.u);
     galv_shape_free(a.shape);
     problem_free(&a.problem);
     config_free(&a.config);

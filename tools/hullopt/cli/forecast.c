@@ -4,7 +4,6 @@
 #include "cli/commands.h"
 #include "core/constraints.h"
 #include "json_result.h"
-#include "shape_yaml.h"
 
 #include <jansson.h>
 #include <math.h>
@@ -56,12 +55,14 @@ int forecast_command(const struct options *options)
     struct forecast f;
     if (!config_read(options->path, NULL, &config))
         return CLI_FAILED;
+    if (config.maker.command || config.judge.command) {
+        config_free(&config);
+        return cli_fail("%s: there is no forecast for commands, which have no derivatives",
+                        options->path);
+    }
     bool ok = problem_read(&config, &problem);
     if (ok) {
-        const nurbs_grid *grid = problem.grid;
-        galv_shape *shape =
-            shape_yaml_read(config.shape, nurbs_grid_rows(grid) * nurbs_grid_columns(grid),
-                            nurbs_grid_points(grid));
+        galv_shape *shape = problem_shape(&problem);
         bool read = shape != NULL;
         ok = read && problem_reduce(&problem, shape, &nobody) && forecast_run(&problem, &f);
         ok = ok || (read && cli_refuse("%s", core_sentence()));

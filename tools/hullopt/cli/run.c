@@ -6,7 +6,6 @@
 #include "core/search.h"
 #include "report/outputs.h"
 #include "report/results.h"
-#include "shape_yaml.h"
 
 #include <errno.h>
 #include <signal.h>
@@ -154,10 +153,7 @@ int run_command(const struct options *options)
     if (ok) {
         problem.jobs = (size_t)options->jobs;
         problem.job_seconds = options->timeout;
-        const nurbs_grid *grid = problem.grid;
-        galv_shape *shape =
-            shape_yaml_read(config.shape, nurbs_grid_rows(grid) * nurbs_grid_columns(grid),
-                            nurbs_grid_points(grid));
+        galv_shape *shape = problem_shape(&problem);
         ok = shape && run_in_folder(options, &problem, shape);
         galv_shape_free(shape);
         problem_free(&problem);
@@ -176,8 +172,10 @@ static bool restore(const char *path, struct record *record, struct config *conf
     bool ok = config_restore(origin.configuration, config) ||
               cli_refuse("%s: the configuration is damaged", path);
     if (ok) {
-        ok = problem_restore(config, origin.model, origin.grid, origin.length, problem);
+        ok =
+            problem_restore(config, origin.model, origin.grid, origin.length, origin.ends, problem);
         origin.model = NULL;
+        origin.ends = NULL;
         problem->solver = origin.solver;
         ok = (ok && results_read(problem, record, results)) ||
              cli_refuse("%s: %s", path, core_sentence());

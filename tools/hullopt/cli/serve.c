@@ -87,9 +87,10 @@ static json_t *design_labels(const struct served *model)
 {
     (void)model;
     return json_pack("[[s], [s], [s, s, s, s, s, s]]",
-                     "C_w by search.models and speeds of the configuration", "C_w by pressure",
-                     "R_w, N", "share of C_w beyond the filter", "condition", "unknowns",
-                     "volume, m^3", "wetted area, m^2");
+                     "C_w by search.models and speeds of the configuration",
+                     "objective.command, C_w by pressure, where there are", "R_w, N",
+                     "share of C_w beyond the filter", "condition", "unknowns", "volume, m^3",
+                     "wetted area, m^2");
 }
 
 /* Serves until one of the signals comes. */

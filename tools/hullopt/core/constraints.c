@@ -192,6 +192,8 @@ static bool asks_particulars(const struct config *config)
 size_t limits_count(const struct config *config)
 {
     double value[2];
+    if (config->maker.command)
+        return 0;
     size_t n = 1; /* the centre plane */
     for (size_t k = 0; k < ROWS; k++) {
         const struct constraint c = row(k);
@@ -216,6 +218,8 @@ int limits_evaluate(void *user_data, size_t d, const double *u, double *value)
     const struct problem *problem = user_data;
     struct known known = {.problem = problem, .u = u};
     (void)d;
+    if (problem->config->maker.command)
+        return 0;
     if (galv_limits_breadth(problem->limits, u, &known.least, &known.share) != GALV_OK)
         return 1;
     if (asks_particulars(problem->config) && !know_particulars(&known))
@@ -239,6 +243,8 @@ double limits_excess(struct problem *problem, const double *u)
     size_t n = limits_count(problem->config);
     if (limits_evaluate(problem, galv_model_modes(problem->model), u, value) != 0)
         return INFINITY;
+    if (n == 0)
+        return 0;
     for (size_t i = 0; i < n; i++)
         most = fmax(most, value[i]);
     return most;
@@ -269,7 +275,8 @@ bool limits_kept(const struct config *config, const struct evaluation *e,
         const struct constraint *c = &TABLE[k];
         double ratio = c->figure(e, 0) / c->figure(parent, 0);
         char text[32];
-        if (!c->decides || isnan(limit_of(c, config)) || excess_of(c, config, ratio) <= 0)
+        if (!c->decides || config->maker.command || isnan(limit_of(c, config)) ||
+            excess_of(c, config, ratio) <= 0)
             continue;
         print_limit(c, config, text);
         return core_fail("%s: %s differs by %+.2f %% from the parent's, allowed %s", c->name,
@@ -278,10 +285,17 @@ bool limits_kept(const struct config *config, const struct evaluation *e,
     return true;
 }
 
+/* Whether it has to be built to be known, in this configuration. */
+static bool is_outcome(const struct constraint *c, const struct config *config)
+{
+    return (!c->known || config->maker.command) && !isnan(limit_of(c, config));
+}
+
 static size_t count_ratios(const struct constraint *c, const struct config *config)
 {
     return c->speeds           ? config->verify_froudes * (1 + config->models)
            : c->bound == SHARE ? config->models
+           : c->bound == RANGE ? 2
                                : 1;
 }
 
@@ -289,6 +303,8 @@ static size_t count_ratios(const struct constraint *c, const struct config *conf
 static double outcome(const struct constraint *c, const struct config *config,
                       const struct evaluation *e, const struct evaluation *parent, size_t i)
 {
+    if (c->bound == RANGE)
+        return relate(c, e->particular[c->particular][i], parent->particular[c->particular][i]);
     double ratio = c->figure(e, i) / c->figure(parent, i);
     return c->bound == SHARE ? ratio - config->confirm * e->cw / parent->cw : ratio;
 }
@@ -297,11 +313,11 @@ size_t outcome_bounds(const struct config *config, double lower[OUTCOME_MOST],
                       double upper[OUTCOME_MOST])
 {
     size_t n = 0;
-    for (size_t k = 0; k < OWN; k++) {
-        const struct constraint *c = &TABLE[k];
-        size_t count = c->known || isnan(limit_of(c, config)) ? 0 : count_ratios(c, config);
+    for (size_t k = 0; k < ROWS; k++) {
+        const struct constraint c = row(k);
+        size_t count = is_outcome(&c, config) ? count_ratios(&c, config) : 0;
         double bound[2];
-        bounds_of(c, config, 0, bound);
+        bounds_of(&c, config, 0, bound);
         for (size_t i = 0; i < count; i++, n++) {
             lower[n] = bound[0];
             upper[n] = bound[1];
@@ -313,11 +329,11 @@ size_t outcome_bounds(const struct config *config, double lower[OUTCOME_MOST],
 void outcome_ratios(const struct config *config, const struct evaluation *e,
                     const struct evaluation *parent, double ratio[OUTCOME_MOST])
 {
-    for (size_t k = 0; k < OWN; k++) {
-        const struct constraint *c = &TABLE[k];
-        size_t count = count_ratios(c, config);
-        for (size_t i = 0; !c->known && !isnan(limit_of(c, config)) && i < count; i++)
-            *ratio++ = outcome(c, config, e, parent, i);
+    for (size_t k = 0; k < ROWS; k++) {
+        const struct constraint c = row(k);
+        size_t count = is_outcome(&c, config) ? count_ratios(&c, config) : 0;
+        for (size_t i = 0; i < count; i++)
+            *ratio++ = outcome(&c, config, e, parent, i);
     }
 }
 

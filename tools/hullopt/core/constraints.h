@@ -5,10 +5,11 @@
 
 #include "core/evaluate.h"
 
-enum { OUTCOME_MOST = 1 + CONFIG_MODELS_MOST + SPEEDS_MOST };
+enum { OUTCOME_MOST = 4 + CONFIG_MODELS_MOST + SPEEDS_MOST + 2 * PARTICULARS };
 
-/* Limits known before a design is built: how many, and their values, <= 0 where allowed. The second
- * is a bayesopt_input_constraint with a struct problem for its user_data. */
+/* Limits known before a design is built: how many, and their values, <= 0 where allowed. Of a hull
+ * that a command makes nothing is: all are outcomes. The second is a bayesopt_input_constraint with
+ * a struct problem for its user_data. */
 size_t limits_count(const struct config *config);
 int limits_evaluate(void *problem, size_t d, const double *u, double *value);
 

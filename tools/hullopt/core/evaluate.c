@@ -2,6 +2,7 @@
 
 #include "cli.h"
 #include "core/constraints.h"
+#include "core/external.h"
 #include "core/particulars.h"
 #include "core/remote.h"
 
@@ -14,6 +15,7 @@ void evaluation_start(uint64_t id, const char *phase, const double *u, struct ev
                              .phase = phase,
                              .u = u,
                              .objective = NAN,
+                             .value = NAN,
                              .cw = NAN,
                              .cw_pressure = NAN,
                              .rw = NAN,
@@ -166,6 +168,8 @@ static void finish(struct problem *problem, const struct design *design, const d
     bool ok = design && measure(problem, design, points, e) && keep_limits(problem, e);
     double built = cli_seconds();
     ok = ok && (here ? solve(problem, design->body, viewer, e) : solve_remotely(problem, e));
+    if (ok && here && problem->config->judge.command)
+        ok = external_judge(problem->config, e->u, design->hull, &e->value);
     e->geometry_seconds = built - start;
     e->solve_seconds = cli_seconds() - built;
     e->failed = !ok;
@@ -179,6 +183,7 @@ void evaluate(struct problem *problem, struct evaluation *e, evaluate_look look,
     double start = cli_seconds();
     e->outside = limits_excess(problem, e->u);
     bool built = problem_build(problem, e->u, &design);
+    snprintf(e->made, sizeof e->made, "%s", problem->made);
     finish(problem, built ? &design : NULL, nurbs_grid_points(problem->moved), start,
            (struct viewer){look, user_data}, e);
     design_free(&design);

@@ -20,6 +20,8 @@ struct evaluation {
     bool failed;
     char reason[REASON_SIZE]; /* of the failure, "skin: ..."; else "" */
     double objective;         /* what the search lowers: objective_of() */
+    double value;             /* by objective.command */
+    char made[CONFIG_PATH];   /* file of the hull by parameters.command, or "" */
     double cw, cw_pressure, rw, share_beyond_cutoff, condition;
     size_t models; /* of cw_model: by the other formulations of search.models */
     double cw_model[CONFIG_MODELS_MOST];

@@ -49,6 +49,8 @@ double objective_total_resistance(const struct config *config, double length,
 double objective_of(const struct config *config, double length, const struct evaluation *e,
                     const struct evaluation *parent)
 {
+    if (config->judge.command)
+        return e->value / parent->value * parent->cw;
     size_t models = isnan(config->confirm) ? e->models : 0;
     double worst = 0;
     for (size_t m = 0; m <= models; m++) {
@@ -61,6 +63,10 @@ double objective_of(const struct config *config, double length, const struct eva
 void objective_print(const struct config *config, double length, double value,
                      const struct evaluation *parent, char *text, size_t size)
 {
+    if (config->judge.command) {
+        snprintf(text, size, "objective %.6g", value / parent->cw * parent->value);
+        return;
+    }
     double shown = value / parent->cw * quantity(config, length, parent, 0);
     const char *weighted = config->weights ? "weighted " : "";
     if (config->quantity == QUANTITY_CW)

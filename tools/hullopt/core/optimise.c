@@ -68,6 +68,8 @@ bool optimise_resume(struct problem *problem, const char *path)
                   "choose another folder",
                   path, difference);
     if (ok) {
+        problem->ends = origin.ends;
+        origin.ends = NULL;
         ok = problem_recall(problem, origin.model, origin.gradient);
         origin.model = NULL;
         problem->initial = origin.initial;
@@ -75,6 +77,15 @@ bool optimise_resume(struct problem *problem, const char *path)
     }
     origin_free(&origin);
     return ok;
+}
+
+bool optimise_set_best(struct problem *problem, const struct record *record,
+                       const struct evaluation *best)
+{
+    return (!problem->config->maker.command ||
+            record_get_points(record, best->id, galv_model_points(problem->model),
+                              &problem->found)) &&
+           problem_set_best(problem, best->u);
 }
 
 static bool build_best(struct problem *problem, const struct record *record, double *u)
@@ -86,7 +97,7 @@ static bool build_best(struct problem *problem, const struct record *record, dou
     if (best)
         memcpy(u, best->u, galv_model_modes(problem->model) * sizeof *u);
     if (best && best->id != 0)
-        ok = problem_set_best(problem, u);
+        ok = optimise_set_best(problem, record, best);
     free(list);
     return ok;
 }
@@ -101,6 +112,13 @@ static bool keep_parameters(const struct problem *problem, const galv_shape *sha
     if (!d)
         return core_no_memory();
     memcpy(x, u, galv_shape_parameters(shape) * sizeof *x);
+    if (problem->config->maker.command) {
+        for (size_t k = 0; k < galv_shape_parameters(shape); k++)
+            x[k] += problem->config->original[k];
+        *residual = 0;
+        free(d);
+        return true;
+    }
     bool ok =
         (galv_shape_displace(shape, points, nurbs_grid_points(problem->grid), u, d) == GALV_OK &&
          galv_reconstruct(problem->model, u, d + 3 * points) == GALV_OK) ||

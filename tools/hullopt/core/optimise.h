@@ -15,4 +15,8 @@ bool optimise_resume(struct problem *problem, const char *path);
 bool optimise_run(struct problem *problem, const galv_shape *shape, struct record *record,
                   const struct core_watch *watch);
 
+/* Builds the best design; one that a command made from its points on record. */
+bool optimise_set_best(struct problem *problem, const struct record *record,
+                       const struct evaluation *best);
+
 #endif

@@ -1,6 +1,8 @@
 #include "core/problem.h"
 
+#include "core/external.h"
 #include "core/particulars.h"
+#include "shape_yaml.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -58,14 +60,67 @@ bool problem_build_points(struct problem *problem, const double *points, struct 
     return build(problem, points, design);
 }
 
+static void hull_options(const struct problem *problem, nurbs_hull_options *options)
+{
+    nurbs_hull_options_init(options);
+    options->simplify = problem->config->tolerance;
+    options->single = true; /* a family moves the design grid of one surface */
+}
+
+static size_t count_points(const struct problem *problem)
+{
+    return nurbs_grid_rows(problem->grid) * nurbs_grid_columns(problem->grid);
+}
+
+bool problem_read_points(struct problem *problem, const char *path, double *points)
+{
+    const struct config *config = problem->config;
+    nurbs_hull_options options;
+    nurbs_hull *hull = NULL;
+    nurbs_grid *grid = NULL;
+    hull_options(problem, &options);
+    bool ok = nurbs_hull_read(path, &options, &hull) == NURBS_OK &&
+              nurbs_hull_design_grid(hull, config->sections, config->girth, &grid) == NURBS_OK;
+    if (!ok)
+        core_fail("hull: %s", nurbs_last_error());
+    else if (nurbs_grid_rows(grid) != nurbs_grid_rows(problem->grid) ||
+             nurbs_grid_columns(grid) != nurbs_grid_columns(problem->grid))
+        ok = core_fail("hull: its design grid is %zu x %zu, that of the original %zu x %zu: set "
+                       "grid.sections and grid.girth",
+                       nurbs_grid_rows(grid), nurbs_grid_columns(grid),
+                       nurbs_grid_rows(problem->grid), nurbs_grid_columns(problem->grid));
+    if (ok)
+        memcpy(points, nurbs_grid_points(grid), 3 * count_points(problem) * sizeof *points);
+    nurbs_grid_free(grid);
+    nurbs_hull_free(hull);
+    return ok;
+}
+
+/* The command's hull; of a run that is only looked at, the one on record. */
+static bool make_points(struct problem *problem, const double *u, double *points)
+{
+    char path[CONFIG_PATH];
+    if (problem->found)
+        memcpy(points, problem->found, 3 * count_points(problem) * sizeof *points);
+    else if (!problem->is_solved)
+        return core_fail("the hull that the command made is not on record");
+    else if (!external_make(problem->config, u, path))
+        return false;
+    else
+        snprintf(problem->made, sizeof problem->made, "%s", path);
+    return problem->found || problem_read_points(problem, path, points);
+}
+
 bool problem_build(struct problem *problem, const double *u, struct design *design)
 {
     double *points = nurbs_grid_edit(problem->moved);
     *design = (struct design){0};
+    problem->made[0] = '\0';
     if (!u)
         return build(problem, nurbs_grid_points(problem->grid), design);
-    if (galv_displace(problem->model, u, points) != GALV_OK)
-        return core_fail("grid: %s", galv_last_error());
+    if (problem->config->maker.command ? !make_points(problem, u, points)
+                                       : galv_displace(problem->model, u, points) != GALV_OK)
+        return problem->config->maker.command ? false : core_fail("grid: %s", galv_last_error());
     return build(problem, points, design);
 }
 
@@ -143,12 +198,14 @@ bool problem_freeze(struct problem *problem)
 bool problem_read(const struct config *config, struct problem *problem)
 {
     nurbs_hull_options options;
-    nurbs_hull_options_init(&options);
-    options.simplify = config->tolerance;
-    options.single = true; /* a family moves the design grid of one surface */
+    char path[CONFIG_PATH];
     *problem = (struct problem){.config = config};
-    bool ok = nurbs_hull_read(config->hull, &options, &problem->source) == NURBS_OK ||
-              core_fail("%s", nurbs_last_error());
+    hull_options(problem, &options);
+    bool ok = !config->maker.command || external_make(config, NULL, path) ||
+              core_fail("%s: the original cannot be made (%s)", config->path, core_sentence());
+    ok = ok && (nurbs_hull_read(config->maker.command ? path : config->hull, &options,
+                                &problem->source) == NURBS_OK ||
+                core_fail("%s", nurbs_last_error()));
     ok = ok && sample_grid(problem) && prepare_parent(problem) && freeze(problem, NULL);
     problem->is_solved = ok;
     if (!ok)
@@ -172,9 +229,9 @@ static bool restore_source(struct problem *problem, double length)
 }
 
 bool problem_restore(const struct config *config, galv_model *model, const size_t grid[2],
-                     double length, struct problem *problem)
+                     double length, double *ends, struct problem *problem)
 {
-    *problem = (struct problem){.config = config};
+    *problem = (struct problem){.config = config, .ends = ends};
     bool ok = grid[0] * grid[1] == galv_model_points(model) ||
               core_fail("the design grid is %zu x %zu, but the latent space moves %zu points",
                         grid[0], grid[1], galv_model_points(model));
@@ -200,6 +257,8 @@ void problem_free(struct problem *problem)
     galv_limits_free(problem->limits);
     galv_model_free(problem->model);
     free(problem->initial);
+    free(problem->ends);
+    free(problem->found);
     nurbs_grid_free(problem->grid);
     nurbs_grid_free(problem->moved);
     nurbs_hull_free(problem->source);
@@ -216,11 +275,14 @@ static bool make_extremes(struct problem *problem, size_t n, nurbs_grid **grids)
     for (size_t k = 0; k < n && ok; k++) {
         const double *bound =
             k % 2 ? galv_model_upper(problem->model) : galv_model_lower(problem->model);
+        const double *points =
+            problem->ends ? problem->ends + k * 3 * count_points(problem) : nurbs_grid_points(grid);
         u[k / 2] = bound[k / 2];
-        ok = nurbs_grid_create(nurbs_grid_rows(grid), nurbs_grid_columns(grid),
-                               nurbs_grid_points(grid), &grids[k]) == NURBS_OK ||
+        ok = nurbs_grid_create(nurbs_grid_rows(grid), nurbs_grid_columns(grid), points,
+                               &grids[k]) == NURBS_OK ||
              core_fail("%s", nurbs_last_error());
-        ok = ok && (galv_displace(problem->model, u, nurbs_grid_edit(grids[k])) == GALV_OK ||
+        ok = ok && (problem->ends ||
+                    galv_displace(problem->model, u, nurbs_grid_edit(grids[k])) == GALV_OK ||
                     core_fail("%s", galv_last_error()));
         u[k / 2] = 0;
     }
@@ -259,6 +321,65 @@ bool problem_recall(struct problem *problem, galv_model *model, const double *gr
     return particulars_of(problem, nurbs_grid_points(problem->grid), true, problem->particular);
 }
 
+/* Runs the command at both ends of each parameter, the others as in the original. */
+static bool make_ends(struct problem *problem)
+{
+    const struct config *config = problem->config;
+    size_t d = config->n_parameters, length = 3 * count_points(problem);
+    double *u = calloc(d, sizeof *u);
+    problem->ends = malloc(2 * d * length * sizeof *problem->ends);
+    bool ok = (u && problem->ends) || core_no_memory();
+    for (size_t k = 0; k < 2 * d && ok; k++) {
+        size_t i = k / 2;
+        double end = k % 2 ? config->upper[i] : config->lower[i];
+        u[i] = end - config->original[i];
+        ok = make_points(problem, u, problem->ends + k * length) ||
+             core_fail("%s: the hull at %s = %g cannot be had (%s)", config->path,
+                       config->parameter[i], end, core_sentence());
+        u[i] = 0;
+    }
+    free(u);
+    return ok;
+}
+
+/* For what takes a linear family: straight to the ends. The designs themselves are the command's.
+ */
+static int displace_to_ends(void *user_data, size_t npoints, const double *xyz, const double *x,
+                            double *d)
+{
+    const struct problem *problem = user_data;
+    const struct config *config = problem->config;
+    memset(d, 0, 3 * npoints * sizeof *d);
+    for (size_t k = 0; k < config->n_parameters; k++) {
+        const double *end = problem->ends + (2 * k + (x[k] > 0)) * 3 * npoints;
+        double share = x[k] > 0 ? x[k] / (config->upper[k] - config->original[k])
+                                : x[k] / (config->lower[k] - config->original[k]);
+        for (size_t i = 0; i < 3 * npoints; i++)
+            d[i] += share * (end[i] - xyz[i]);
+    }
+    return 0;
+}
+
+galv_shape *problem_shape(struct problem *problem)
+{
+    const struct config *config = problem->config;
+    galv_shape *shape = NULL;
+    if (!config->maker.command)
+        return shape_yaml_read(config->shape, count_points(problem),
+                               nurbs_grid_points(problem->grid));
+    size_t d = config->n_parameters;
+    double *bound = malloc(2 * d * sizeof *bound);
+    for (size_t k = 0; bound && k < d; k++) {
+        bound[k] = config->lower[k] - config->original[k];
+        bound[d + k] = config->upper[k] - config->original[k];
+    }
+    if (!bound || galv_shape_callback(d, bound, bound + d, displace_to_ends, problem, true,
+                                      &shape) != GALV_OK)
+        core_no_memory();
+    free(bound);
+    return shape;
+}
+
 static int show_fraction(void *user_data, double fraction)
 {
     core_show(user_data, LATENT_SPACE, fraction, NULL);
@@ -290,14 +411,17 @@ bool problem_reduce(struct problem *problem, const galv_shape *shape,
     options.progress_user_data = &show;
     size_t points = nurbs_grid_rows(problem->grid) * nurbs_grid_columns(problem->grid);
     const double *xyz = nurbs_grid_points(problem->grid);
+    if (config->maker.command && !make_ends(problem))
+        return false;
     galv_status status =
-        config->space
+        config->space || config->maker.command
             ? galv_build_parameters(shape, points, xyz, &model)
             : galv_build(shape, points, xyz, galv_uniform(config->samples, config->latent_seed),
                          &options, &model);
     if (status != GALV_OK)
         return core_fail("%s: %s", config->shape, galv_last_error());
     return problem_recall(problem, model, NULL) &&
-           (galv_limits_linearise(problem->limits, built_volume, problem) == GALV_OK ||
+           (config->maker.command ||
+            galv_limits_linearise(problem->limits, built_volume, problem) == GALV_OK ||
             core_fail("%s: %s", config->shape, galv_last_error()));
 }

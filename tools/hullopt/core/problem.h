@@ -24,9 +24,12 @@ struct problem {
     size_t jobs; /* designs evaluated at once, in processes of their own; 0, 1: in this one */
     double job_seconds;    /* after which such a design has failed; 0: never */
     struct remote *remote; /* who solves instead, borrowed; NULL: this process */
-    nurbs_hull *source;   /* the parent as it was read: every design has its length and tolerance */
-    nurbs_grid *grid;     /* design grid on it */
-    nurbs_grid *moved;    /* of the design at hand */
+    nurbs_hull *source; /* the parent as it was read: every design has its length and tolerance */
+    nurbs_grid *grid;   /* design grid on it */
+    nurbs_grid *moved;  /* of the design at hand */
+    char made[CONFIG_PATH]; /* file of its hull, where a command made that */
+    double *ends;  /* grids of the command's hulls at the lower and upper end of each parameter */
+    double *found; /* grid of its best hull, of a run that is looked at; NULL: not known */
     struct design parent; /* built from its grid like every design */
     struct design best;   /* empty before problem_set_best(), and when nothing is better */
     bool is_solved;       /* with these options, frozen on the parent */
@@ -41,10 +44,11 @@ struct problem {
 
 /* Reads the hull, samples the grid, builds the parent, freezes the options on it. */
 bool problem_read(const struct config *config, struct problem *problem);
-/* The hulls of a run without its file: from the latent space, the size of the grid and the length.
- * Takes the model, whatever comes of it. There are no options to solve with. */
+/* The hulls of a run without its file: from the latent space, the size of the grid, the length and
+ * the ends of a command's parameters (NULL: none). Takes model and ends, whatever comes of it.
+ * There are no options to solve with. */
 bool problem_restore(const struct config *config, galv_model *model, const size_t grid[2],
-                     double length, struct problem *problem);
+                     double length, double *ends, struct problem *problem);
 void problem_free(struct problem *problem);
 
 /* Freezes the options on the parent again, after the configuration changed: the mesh is kept. */
@@ -62,6 +66,12 @@ bool problem_build(struct problem *problem, const double *u, struct design *desi
 /* The same of the points of a grid. */
 bool problem_build_points(struct problem *problem, const double *points, struct design *design);
 bool problem_set_best(struct problem *problem, const double *u);
+
+/* Fills the grid points of the hull in a file that the command made. */
+bool problem_read_points(struct problem *problem, const char *path, double *points);
+/* The family of designs: that of the shape file, or the command's. NULL with a sentence, which for
+ * a shape file is printed. */
+galv_shape *problem_shape(struct problem *problem);
 
 /* The best design, or the parent. */
 const struct design *problem_best(const struct problem *problem);

@@ -74,7 +74,7 @@ struct member {
 #define OPTION(member) MEMBER(igabem_options, MEMBER_NUMBER, member)
 #define WHOLE(member)  MEMBER(igabem_options, MEMBER_INTEGER, member)
 
-enum { MEMBERS_MOST = 20 };
+enum { MEMBERS_MOST = 20 }; /* of the lists below */
 
 static const struct member EVALUATION[] = {
     FIGURE(cw),
@@ -93,6 +93,8 @@ static const struct member EVALUATION[] = {
     FIGURE(geometry_seconds),
     FIGURE(solve_seconds),
     MEMBER(evaluation, MEMBER_COUNT, dofs),
+    FIGURE(value),
+    MEMBER(evaluation, MEMBER_TEXT, made),
 };
 static const struct member SOLVER_OPTIONS[] = {
     OPTION(froude),         OPTION(gravity),      OPTION(density),     WHOLE(refine),
@@ -239,7 +241,29 @@ static bool get_model(const struct record *record, galv_model **model)
     return ok;
 }
 
-static const char INITIAL[] = "initial";
+static const char INITIAL[] = "initial", ENDS[] = "parameters.ends";
+
+bool record_put_points(struct record *record, uint64_t id, size_t n, const double *points)
+{
+    const double number = (double)id;
+    return record_put_array(record, "best.points", n, 3, points) &&
+           record_put_array(record, "best.points.of", 1, 1, &number);
+}
+
+bool record_get_points(const struct record *record, uint64_t id, size_t n, double **points)
+{
+    size_t rows, columns;
+    double *of;
+    if (!record_get_array(record, "best.points.of", &rows, &columns, &of))
+        return false;
+    bool known = of && *of == (double)id;
+    free(of);
+    *points = NULL;
+    if (!known)
+        return true;
+    return record_get_array(record, "best.points", &rows, &columns, points) &&
+           (rows * columns == 3 * n || core_fail("'best.points' is damaged"));
+}
 
 bool record_put_origin(struct record *record, const struct problem *problem)
 {
@@ -258,6 +282,9 @@ bool record_put_origin(struct record *record, const struct problem *problem)
            (!problem->initial ||
             record_put_array(record, INITIAL, problem->config->initial,
                              galv_model_modes(problem->model), problem->initial)) &&
+           (!problem->ends ||
+            record_put_array(record, ENDS, 2 * galv_model_modes(problem->model),
+                             3 * galv_model_points(problem->model), problem->ends)) &&
            record_put_text(record, CONFIGURATION, problem->config->text) &&
            record_put_array(record, FORMAT_NAME, 1, 1, &format);
 }
@@ -301,6 +328,7 @@ static bool read_origin(const struct record *record, struct origin *o)
         !get_solver(record, &o->solver) || !get_numbers(record, "length", 1, &o->length) ||
         !get_numbers(record, "grid", 2, grid) || !get_model(record, &o->model) ||
         !record_get_array(record, INITIAL, &rows, &columns, &o->initial) ||
+        !record_get_array(record, ENDS, &rows, &columns, &o->ends) ||
         !record_get_array(record, "volume.gradient", &rows, &columns, &o->gradient))
         return false;
     for (int k = 0; k < 2; k++)
@@ -329,6 +357,7 @@ void origin_free(struct origin *origin)
     free(origin->configuration);
     free(origin->gradient);
     free(origin->initial);
+    free(origin->ends);
     galv_model_free(origin->model);
     *origin = (struct origin){0};
 }

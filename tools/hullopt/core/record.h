@@ -23,6 +23,7 @@ struct origin {
     galv_model *model;
     double *gradient; /* of the volume, modes numbers, or NULL */
     double *initial;  /* of a search, search.initial x modes numbers, or NULL */
+    double *ends;     /* problem.ends, or NULL */
     size_t grid[2];
     double length;
 };
@@ -48,6 +49,11 @@ bool record_put_array(struct record *record, const char *name, size_t rows, size
                       const double *values);
 bool record_get_array(const struct record *record, const char *name, size_t *rows, size_t *columns,
                       double **values);
+
+/* The grid points of a command's hull, so that it can be built again without the command; NULL: not
+ * those of that evaluation. */
+bool record_put_points(struct record *record, uint64_t id, size_t n, const double *points);
+bool record_get_points(const struct record *record, uint64_t id, size_t n, double **points);
 
 /* Tells the search what became of a design, with all its figures: in one transaction. ratio: of
  * outcome_ratios(). id 0: not asked for; filled, but for the parent, which comes first. */

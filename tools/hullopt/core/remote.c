@@ -32,7 +32,8 @@ static size_t count_speeds(const struct config *config)
 void remote_sizes(const struct config *config, size_t sizes[3])
 {
     sizes[0] = 1 + config->models + count_speeds(config);
-    sizes[1] = igabem_formulation_info(config->solver.formulation)->pressure;
+    sizes[1] = igabem_formulation_info(config->solver.formulation)->pressure +
+               (size_t)(config->judge.command != NULL);
     sizes[2] = REMOTE_FIGURES;
 }
 
@@ -49,7 +50,9 @@ void remote_write(const struct config *config, const struct evaluation *e, doubl
     memcpy(output, e->cw_model, e->models * sizeof *output);
     memcpy(output + e->models, e->cw_speed, e->speeds * sizeof *output);
     output += sizes[0] - 1;
-    if (sizes[1])
+    if (config->judge.command)
+        *output++ = e->value;
+    if (igabem_formulation_info(config->solver.formulation)->pressure)
         *output++ = e->cw_pressure;
     for (size_t k = 0; k < REMOTE_FIGURES; k++) {
         double value = k == DOFS ? (double)e->dofs : *figure(e, k);
@@ -63,8 +66,8 @@ static bool close_to(double a, double b, double tolerance)
 }
 
 /* False, with the reason, when these are not the figures of that design. */
-static bool take(const struct umbridge *server, const double *output, struct evaluation *e,
-                 char *reason)
+static bool take(const struct remote *remote, const struct umbridge *server, const double *output,
+                 struct evaluation *e, char *reason)
 {
     const double *more = output + server->outputs[0] + server->outputs[1];
     for (size_t k = 0; k < server->outputs[0]; k++)
@@ -83,8 +86,11 @@ static bool take(const struct umbridge *server, const double *output, struct eva
     e->cw = output[0];
     memcpy(e->cw_model, output + 1, e->models * sizeof *output);
     memcpy(e->cw_speed, output + 1 + e->models, e->speeds * sizeof *output);
-    if (server->outputs[1])
-        e->cw_pressure = output[server->outputs[0]];
+    output += server->outputs[0];
+    if (remote->judges)
+        e->value = *output++;
+    if (output < more)
+        e->cw_pressure = *output;
     for (size_t k = 0; k < DOFS; k++)
         *figure(e, k) = more[k] == NONE ? NAN : more[k];
     e->dofs = more[DOFS] > 0 ? (size_t)more[DOFS] : 0;
@@ -107,7 +113,8 @@ static bool open_one(struct umbridge *server, const char *url, const struct prob
 
 bool remote_open(struct remote *remote, const struct problem *problem, const char *urls)
 {
-    *remote = (struct remote){.urls = strdup(urls)};
+    *remote =
+        (struct remote){.urls = strdup(urls), .judges = problem->config->judge.command != NULL};
     json_t *identity = identity_of(problem);
     char *rest = remote->urls, *url;
     bool ok = (rest || core_no_memory()) && identity;
@@ -134,8 +141,8 @@ bool remote_check(const struct remote *remote, const struct evaluation *parent, 
     for (size_t i = 0; i < remote->n && ok; i++) {
         const struct umbridge *server = &remote->server[i];
         struct evaluation e = *parent;
-        ok =
-            umbridge_numbers(server, zero, output, reason) == 0 && take(server, output, &e, reason);
+        ok = umbridge_numbers(server, zero, output, reason) == 0 &&
+             take(remote, server, output, &e, reason);
         if (!ok)
             core_fail("%s", reason);
         else if (!close_to(e.cw, parent->cw, SAME_CW))
@@ -180,7 +187,7 @@ bool remote_solve(struct remote *remote, struct evaluation *e)
                 sleep(PAUSE);
             status = umbridge_numbers(server, e->u, output, reason);
         }
-        if (status == 0 && take(server, output, e, reason))
+        if (status == 0 && take(remote, server, output, e, reason))
             return true;
         if (status == UMBRIDGE_MODEL)
             return fail_design(reason);

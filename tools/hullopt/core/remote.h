@@ -13,7 +13,8 @@ struct remote {
     size_t n, first; /* how many, and whom the next design is given to */
     uint64_t lost;   /* who is not asked any more */
     struct umbridge server[REMOTE_MOST];
-    char *urls; /* cut into pieces */
+    char *urls;  /* cut into pieces */
+    bool judges; /* the servers run objective.command */
 };
 
 /* Looks for the model of the problem at each of "URL,URL,...". remote_close() in any case. */
@@ -30,8 +31,9 @@ bool remote_solve(struct remote *remote, struct evaluation *e);
 bool remote_learn(struct remote *remote, const struct evaluation *e,
                   const struct core_watch *watch);
 
-/* What a server answers, in three vectors: C_w in the order of evaluate_settings(); C_w by
- * pressure where the formulation has it; the figures below, -1 for one that has no value.
+/* What a server answers, in three vectors: C_w in the order of evaluate_settings(); what
+ * objective.command told, where there is one, and C_w by pressure, where the formulation has it;
+ * the figures below, -1 for one that has no value.
  */
 enum { REMOTE_FIGURES = 6, REMOTE_SIZE = SETTINGS_MOST + 1 + REMOTE_FIGURES };
 void remote_sizes(const struct config *config, size_t sizes[3]);

@@ -38,7 +38,7 @@ bool search_open(struct problem *problem, const char *path, struct record *recor
     options.max_evaluations = search_budget(config);
     options.strategy = config->strategy;
     options.n_input_constraints = limits_count(config);
-    options.input_constraint = limits_evaluate;
+    options.input_constraint = options.n_input_constraints ? limits_evaluate : NULL;
     options.input_user_data = problem;
     options.n_constraints = outcome_bounds(config, lower, upper);
     options.constraint_lower = lower;
@@ -92,6 +92,9 @@ static bool begin(struct search *s)
     bool ok = true;
     if (s->parent.failed)
         ok = core_fail("%s: the parent cannot be evaluated (%s)", config->hull, s->parent.reason);
+    else if (config->judge.command && !(s->parent.value > 0))
+        ok = core_fail("objective.command: the original is worth %g, expected a positive number",
+                       s->parent.value);
     else if (isnan(objective_of(config, problem_length(s->problem), &s->parent, &s->parent)))
         ok = core_fail("%s: objective.quantity: no ITTC-57 friction at Re <= 1000", config->hull);
     ok = ok && tell(s, &s->parent);
@@ -114,6 +117,17 @@ void search_show(const struct search *s, const char *what)
     core_show(s->watch, SEARCH, (double)s->done / (double)all, detail);
 }
 
+/* Of the best hull that a command made so far. */
+static bool keep_points(struct search *s, const struct evaluation *e)
+{
+    size_t n = galv_model_points(s->problem->model);
+    double *points = malloc(3 * n * sizeof *points);
+    bool ok = (points || core_no_memory()) && problem_read_points(s->problem, e->made, points) &&
+              record_put_points(s->record, e->id, n, points);
+    free(points);
+    return ok;
+}
+
 /* Figures and value are told at once: a session that dies leaves a point that is asked again. */
 static bool settle(struct search *s, struct evaluation *e)
 {
@@ -123,9 +137,10 @@ static bool settle(struct search *s, struct evaluation *e)
         return false;
     s->done++;
     s->failed += e->failed;
-    if (outcome_allowed(s->problem->config, e, &s->parent))
-        s->best = fmin(s->best, e->objective);
-    return true;
+    if (!outcome_allowed(s->problem->config, e, &s->parent) || !(e->objective < s->best))
+        return true;
+    s->best = e->objective;
+    return !*e->made || keep_points(s, e);
 }
 
 bool search_step(struct search *s, struct evaluation *e, evaluate_look look, void *user_data)

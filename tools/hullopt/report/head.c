@@ -60,6 +60,10 @@ static void cards(FILE *out, const struct results *r)
     char value[80], label[120];
     struct results_times times = results_times(r);
     fputs("<div class=\"cards\">\n", out);
+    if (r->problem->config->judge.command) {
+        snprintf(value, sizeof value, "%+.1f %%", 100 * (r->best->value / r->baseline->value - 1));
+        card(out, value, "objective of the command, which was lowered");
+    }
     snprintf(value, sizeof value, "%+.1f %%", 100 * (r->best->cw / r->baseline->cw - 1));
     card(out, value, "wave resistance coefficient");
     snprintf(value, sizeof value, "%.3f → %.3f", 1e3 * r->baseline->cw, 1e3 * r->best->cw);

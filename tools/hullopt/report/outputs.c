@@ -89,6 +89,9 @@ static bool print_figures(const struct results *r, const char *folder)
     printf("%-22s%zu of %zu parameters, %.2f %% of the variance\n", "latent variables",
            galv_model_modes(r->problem->model), galv_model_parameters(r->problem->model),
            100 * galv_model_retained(r->problem->model));
+    if (r->problem->config->judge.command)
+        printf("%-22s%.6g, original %.6g, %+.1f %%\n", "objective", r->best->value,
+               r->baseline->value, 100 * (r->best->value / r->baseline->value - 1));
     printf("%-22s%.4e\n%-22s%.4e\n%-22s%.1f %%\n", "C_w before", r->baseline->cw, "C_w after",
            r->best->cw, "reduction", 100 * (1 - r->best->cw / r->baseline->cw));
     double total[2];

@@ -158,10 +158,13 @@ void draw_original(FILE *out, const struct results *r)
 void draw_optimum(FILE *out, const struct results *r)
 {
     const galv_model *model = r->problem->model;
+    const double *found = r->problem->found; /* a command's hull is no sum of modes */
     size_t points = galv_model_points(model), n = 3 * points;
     double *moved = malloc(n * sizeof *moved), *change = malloc(points * sizeof *change), most = 0;
     const double *parent = nurbs_grid_points(r->problem->grid);
-    if (moved && change && galv_displace(model, r->best->u, moved) == GALV_OK) {
+    if (moved && found)
+        memcpy(moved, found, n * sizeof *moved);
+    if (moved && change && (found || galv_displace(model, r->best->u, moved) == GALV_OK)) {
         for (size_t k = 0; k < points; k++) {
             double d[3], length = 0;
             for (size_t c = 0; c < 3; c++) {

@@ -2,6 +2,7 @@
 
 #include "core/constraints.h"
 #include "core/objective.h"
+#include "core/optimise.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -38,21 +39,33 @@ static bool read_parameters(const struct record *record, struct results *r)
     return true;
 }
 
+/* The verification is about C_w, which was not lowered. */
+static void tell_of_command(struct results *r)
+{
+    char *text = r->verdict.statement, of_cw[sizeof r->verdict.statement];
+    snprintf(of_cw, sizeof of_cw, "%s", text);
+    snprintf(text, sizeof of_cw,
+             "The number of the command changes by %+.1f %%. C_w, which was not lowered: %.800s",
+             100 * (r->best->value / r->baseline->value - 1), of_cw);
+}
+
 bool results_read(struct problem *problem, const struct record *record, struct results *r)
 {
     *r = (struct results){.problem = problem};
-    bool ok =
-        read_evaluations(record, r) &&
-        (r->best == r->baseline || problem->best.hull || problem_set_best(problem, r->best->u)) &&
-        record_get_text(record, "stop", &r->stop) &&
-        record_verifications(record, &r->rows, &r->n_rows) &&
-        waves_read(record, false, &r->waves[0]) && waves_read(record, true, &r->waves[1]) &&
-        read_parameters(record, r) && record_seconds(record, &r->sessions, &r->seconds);
+    bool ok = read_evaluations(record, r) &&
+              (r->best == r->baseline || problem->best.hull ||
+               optimise_set_best(problem, record, r->best)) &&
+              record_get_text(record, "stop", &r->stop) &&
+              record_verifications(record, &r->rows, &r->n_rows) &&
+              waves_read(record, false, &r->waves[0]) && waves_read(record, true, &r->waves[1]) &&
+              read_parameters(record, r) && record_seconds(record, &r->sessions, &r->seconds);
     if (!ok) {
         results_free(r);
         return false;
     }
     verdict_reach(r->rows, r->n_rows, &r->verdict);
+    if (problem->config->judge.command)
+        tell_of_command(r);
     r->complete = r->stop && r->n_rows > 0 && r->waves[0].elevation &&
                   (r->waves[1].elevation || r->best == r->baseline);
     return true;

@@ -36,6 +36,10 @@ static json_t *evaluation(const struct results *r, const struct evaluation *e)
     json_t *o = json_object();
     put_count(o, "id", (size_t)e->id);
     json_result_set(o, "phase", json_string(e->phase));
+    if (r->problem->config->judge.command)
+        put(o, "value", e->value);
+    if (*e->made)
+        json_result_set(o, "made", json_string(e->made));
     put(o, "cw", e->cw);
     put(o, "cw_pressure", e->cw_pressure);
     put(o, "rw", e->rw);

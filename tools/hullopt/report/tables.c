@@ -195,6 +195,14 @@ static void optimum_parameters(FILE *out, const struct results *r)
     fputs("</code></p>\n", out);
     if (!r->parameters)
         return;
+    if (r->problem->config->maker.command) {
+        fputs("<p class=\"note\">Parameters of the command:</p><p><code>", out);
+        for (size_t k = 0; k < r->n_parameters; k++)
+            fprintf(out, "%s%s = %.6g", k ? ", " : "", r->problem->config->parameter[k],
+                    r->parameters[k]);
+        fputs("</code></p>\n", out);
+        return;
+    }
     fprintf(out,
             "<p class=\"note\">Nearest parameters of the original family, metres; the hull they "
             "give differs by %.2f mm root mean square:</p><p><code>",

@@ -2,7 +2,6 @@
 
 #include "cli.h"
 #include "core/problem.h"
-#include "shape_yaml.h"
 
 #include <pthread.h>
 #include <stdatomic.h>
@@ -55,13 +54,6 @@ static int cancel(void *user_data, double fraction)
     return atomic_load(&((struct designs *)user_data)->is_stopping);
 }
 
-static galv_shape *read_shape(const struct worker *w)
-{
-    const nurbs_grid *grid = w->problem.grid;
-    return shape_yaml_read(w->config.shape, nurbs_grid_rows(grid) * nurbs_grid_columns(grid),
-                           nurbs_grid_points(grid));
-}
-
 static bool prepare(struct worker *w)
 {
     const struct core_watch nobody = {0};
@@ -71,7 +63,7 @@ static bool prepare(struct worker *w)
     w->config.solver.progress_user_data = w->designs;
     if (!problem_read(&w->config, &w->problem))
         return false;
-    galv_shape *shape = read_shape(w);
+    galv_shape *shape = problem_shape(&w->problem);
     bool ok = (shape || core_fail("%s: the shape cannot be read", w->config.shape)) &&
               problem_reduce(&w->problem, shape, &nobody);
     galv_shape_free(shape);

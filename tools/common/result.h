@@ -1,6 +1,6 @@
 /* Numbers in what a program printed or wrote. */
-#ifndef BAYESOPT_TOOL_RESULT_H
-#define BAYESOPT_TOOL_RESULT_H
+#ifndef TOOLS_RESULT_H
+#define TOOLS_RESULT_H
 
 #include <stdbool.h>
 #include <stddef.h>
