@@ -108,6 +108,7 @@ static void print_igabem(void)
     D(igabem_forces, rw);
     D(igabem_forces, cw);
     D(igabem_forces, cw_l2);
+    D(igabem_forces, cw_error);
     D(igabem_forces, cw_pressure);
     D(igabem_forces, sinkage);
     D(igabem_forces, trim);

@@ -179,7 +179,8 @@ module igabem_c
     integer(c_size_t) :: dofs
     type(igabem_cost) :: cost
     real(c_double) :: unknowns_per_wave
-    real(c_double) :: reserved(8)
+    real(c_double) :: cw_error
+    real(c_double) :: reserved(7)
   end type
 
   type, bind(c) :: igabem_equilibrium

@@ -161,7 +161,7 @@ int main(int argc, char **argv)
         fprintf(
             stderr,
             "usage: igabem_validation HULL.json [double-body|spheroids|wigley|forms|tank|patches|"
-            "5415|hulls]\n");
+            "5415|hulls|error]\n");
         return 2;
     }
     printf(
@@ -187,5 +187,7 @@ int main(int argc, char **argv)
         dtmb5415_section(argv[1]);
     if (wanted(argc, argv, "hulls"))
         hulls_section();
+    if (wanted(argc, argv, "error"))
+        error_section(argv[1]);
     return ferror(stdout) || fflush(stdout) ? EXIT_FAILURE : EXIT_SUCCESS;
 }

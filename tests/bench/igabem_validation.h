@@ -31,6 +31,7 @@ void tank_section(void);
 void patches_section(void);
 void dtmb5415_section(const char *file);
 void hulls_section(void);
+void error_section(const char *file);
 
 /* Of a hull with a transom at three speeds: meshes, spreads over cut-off and x_s, pressure,
  * attitude. */

@@ -136,6 +136,8 @@ class Flow(unittest.TestCase):
         hull = nurbs.Hull.read(os.path.join(SOURCE, "examples/hulls/spheroid.json"))
         flow = igabem.solve(hull, 0.4)
         self.assertAlmostEqual(flow.forces["cw"] / 0.01227124422, 1, 3)
+        self.assertLess(flow.forces["cw_error"], 1e-3 * flow.forces["cw"])
+        self.assertGreater(flow.forces["cw_error"], 0)
         zeta = flow.elevation(np.linspace(-3, 1, 6).reshape(2, 3), 0.4)
         self.assertEqual(zeta.shape, (2, 3))
         self.assertTrue(np.isfinite(zeta).all() and np.abs(zeta).max() > 1e-4)

@@ -168,7 +168,7 @@ expect_code 0 "" "$igabem" solve "$work/full.json" --fr 0.3 --elements 16,3 --fo
 check "no warning for hogner" $?
 "$igabem" check "$work/full.json" | grep -q "warning: full waterline entrance (nu_s > 0.35)"
 check "check warns of a full bow" $?
-"$igabem" solve "$hulls/wigley.json" --fr 0.3 --elements 16,4 --json 2> "$work/err" > "$work/json"
+"$igabem" solve "$hulls/wigley.json" --fr 0.3 --elements 24,6 --json 2> "$work/err" > "$work/json"
 ! grep warning "$work/err" && grep -q '"warnings": \[\]' "$work/json"
 check "no warning for the Wigley hull" $?
 expect_code 0 "along a transverse wave.*refine" "$igabem" solve "$hulls/wigley.json" --fr 0.2 --elements 8,3 --json

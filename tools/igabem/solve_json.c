@@ -101,6 +101,7 @@ static json_t *result_json(const struct solve_run *run, const struct solve_resul
     json_result_set(json, "wetted_area", real(f->wetted_area));
     json_result_set(json, "volume", real(f->volume));
     json_result_set(json, "cw", real(f->cw));
+    json_result_set(json, "cw_error", real(f->cw_error));
     json_result_set(json, "cw_pressure", real(f->cw_pressure));
     json_result_set(json, "cw_pressure_linear", real(f->cw_pressure_linear));
     json_result_set(json, "cw_run_up", real(f->cw_run_up));

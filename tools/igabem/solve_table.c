@@ -88,6 +88,8 @@ static void print_result(const struct solve_run *run, const struct solve_result 
                f->cw_cutoff_lower, f->cw_cutoff_upper, 100.0 * f->share_beyond_cutoff);
     else if (f->share_beyond_cutoff > 0)
         printf("  %.2g %% of C_w from beyond t_c\n", 100.0 * f->share_beyond_cutoff);
+    if (isfinite(f->cw_error))
+        printf("  discretisation error of C_w about %.2g %%\n", 100.0 * f->cw_error / f->cw);
     if (isfinite(f->cw_pressure_linear)) {
         printf("  C_w by pressure without the quadratic and run-up terms %.4e",
                f->cw_pressure_linear);

@@ -176,7 +176,11 @@ typedef struct igabem_forces {
     igabem_cost cost; /**< of its quadrature */
     double unknowns_per_wave; /**< along the hull, where they are fewest, in a transverse wave
                                  length 2 pi/k0 */
-    double reserved[8];       /**< 0: room for members of later releases */
+    double cw_error;          /**< discretisation error of cw, of either sign: an estimate from what
+                                 the same equations give on half the knots, within a factor of 3
+                                 for three meshes out of five, else mostly more (docs/validation.md). NAN
+                                 without a          solve and with a potential */
+    double reserved[7];       /**< 0: room for members of later releases */
 } igabem_forces;
 
 /** Fills forces. */

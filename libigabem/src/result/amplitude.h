@@ -11,7 +11,7 @@ void amplitude(const struct sources *sources, double k0, double t, double h[2]);
 
 /* The same for up to AMPLITUDE_SETS sources that differ in their strengths only: fills h[sets][2].
  * The waves at their common places are computed once. */
-enum { AMPLITUDE_SETS = 3 };
+enum { AMPLITUDE_SETS = 4 };
 void amplitude_sets(size_t sets, const struct sources *const *sources, double k0, double t,
                     double (*h)[2]);
 

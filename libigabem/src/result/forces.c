@@ -115,6 +115,7 @@ igabem_status igabem_forces_compute(const igabem_solution *solution, igabem_forc
                               .cw_pressure_linear = NAN,
                               .cw_run_up = NAN,
                               .cw_transom = NAN,
+                              .cw_error = NAN,
                               .cw_cutoff_lower = NAN,
                               .cw_cutoff_upper = NAN,
                               .share_beyond_cutoff = NAN,
@@ -139,6 +140,7 @@ igabem_status igabem_forces_compute(const igabem_solution *solution, igabem_forc
     forces->cw = far.cw;
     forces->rw = far.cw * pressure * h->wetted_area;
     forces->cw_l2 = far.cw * h->wetted_area / (length * length);
+    forces->cw_error = far.cw_error;
     forces->cw_cutoff_lower = far.cw_lower;
     forces->cw_cutoff_upper = far.cw_upper;
     forces->share_beyond_cutoff = far.share_beyond_cutoff;

@@ -7,6 +7,7 @@
 struct kochin_resistance {
     double cw;                  /* NAN where nothing radiates */
     double share_beyond_cutoff; /* part of cw from |t| > t_c; 0 without a cut-off */
+    double cw_error;            /* its discretisation error, estimated; NAN where it is not */
     double cw_lower, cw_upper;  /* with the densities of 0.85 and 1.15 t_c, NAN if not solved for */
 };
 

@@ -100,11 +100,10 @@ igabem_status radiation_sources(const igabem_solution *solution, enum radiation_
                                 double t_max, size_t cuts, const double *cut,
                                 struct sources **sources)
 {
-    const double *sigma = cutoff == RADIATION_LOWER   ? solution->sigma_lower
-                          : cutoff == RADIATION_UPPER ? solution->sigma_upper
-                                                      : solution->sigma;
+    const double *const densities[] = {solution->sigma, solution->sigma_lower,
+                                       solution->sigma_upper, solution->sigma_change};
     const struct source_rule rule = {solution->k0, t_max, cuts, cut};
-    igabem_status status = sources_create(solution, &rule, sigma, sources);
+    igabem_status status = sources_create(solution, &rule, densities[cutoff], sources);
     if (status)
         return status;
     place_sources(solution->formulation, solution->speed, *sources);

@@ -6,7 +6,7 @@
 #include "solve/solution.h"
 
 /* Which of the solution's densities. */
-enum radiation_cutoff { RADIATION_AS_SOLVED, RADIATION_LOWER, RADIATION_UPPER };
+enum radiation_cutoff { RADIATION_AS_SOLVED, RADIATION_LOWER, RADIATION_UPPER, RADIATION_CHANGE };
 
 /* Sources that carry the far-field waves up to angle t_max. Without a solve they are U n_x, taken
  * from the exact normals, else they carry the solved density. Elements are divided at the planes

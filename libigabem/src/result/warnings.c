@@ -17,6 +17,7 @@ static const double fewest_per_wave = 8.0;
 static const double least_froude = 0.1, most_froude = 1.0;
 static const double most_trim = 3.0, degree = 180 / PI;
 static const double most_sinkage = 0.01; /* of the length */
+static const double most_error = 0.01;   /* of C_w, estimated */
 static const double most_gap = 0.5, most_momentum_gap = 0.25, most_gap_submerged = 0.01;
 
 struct subject {
@@ -92,6 +93,14 @@ static bool coarse_mesh(const struct subject *s, struct sentence *sentence)
            say(sentence,
                "%.2g unknowns along a transverse wave of %.3g m, expected %g at least: refine",
                s->forces->unknowns_per_wave, 2.0 * PI / s->forces->k0, fewest_per_wave);
+}
+
+static bool coarse_result(const struct subject *s, struct sentence *sentence)
+{
+    return s->forces && s->forces->cw_error > most_error * s->forces->cw &&
+           say(sentence,
+               "C_w has a discretisation error of about %.2g %%, expected %g %% at most: refine",
+               100.0 * s->forces->cw_error / s->forces->cw, 100.0 * most_error);
 }
 
 /* A wave that reaches the stern in fewer cells has lost its phase (docs/experiments.md). */
@@ -187,9 +196,9 @@ static bool pressure_gap(const struct subject *s, struct sentence *sentence)
 }
 
 static bool (*const checks[])(const struct subject *subject, struct sentence *sentence) = {
-    closed_transom, steep_end,     full_bow,         strange_length,
-    coarse_mesh,    strange_speed, strange_attitude, negative_pressure,
-    pressure_gap,   momentum_gap,  coarse_surface,
+    closed_transom,    steep_end,     full_bow,      strange_length,
+    coarse_mesh,       coarse_result, strange_speed, strange_attitude,
+    negative_pressure, pressure_gap,  momentum_gap,  coarse_surface,
 };
 
 static const char *find(const struct subject *subject, size_t number)

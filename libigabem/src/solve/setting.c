@@ -1,6 +1,7 @@
 #include "solve/setting.h"
 
 #include "solve/assemble.h"
+#include "solve/coarsened.h"
 #include "solve/filters.h"
 #include "solve/formulation.h"
 
@@ -93,8 +94,13 @@ static igabem_status solve_rows(const struct influence *influence,
     igabem_status status = solution->velocity && flow ? IGABEM_OK : solution_no_memory(n);
     if (status == IGABEM_OK) {
         assemble_turn(influence, rows);
-        status = filters_solve(&matrix, solution, filters, change);
+        if (solution->waves)
+            status = coarsened_density(&matrix, solution, &solution->sigma_change);
     }
+    if (status == IGABEM_OK)
+        status = filters_solve(&matrix, solution, filters, change);
+    for (size_t i = 0; i < n && status == IGABEM_OK && solution->sigma_change; i++)
+        solution->sigma_change[i] = solution->sigma[i] - solution->sigma_change[i];
     if (status == IGABEM_OK) {
         solution_normal_flow(solution, flow);
         assemble_velocity(influence, rows, flow, solution->sigma, solution->velocity);

@@ -73,6 +73,7 @@ void igabem_solution_free(igabem_solution *solution)
     free(solution->velocity);
     free(solution->sigma_lower);
     free(solution->sigma_upper);
+    free(solution->sigma_change);
     free(solution);
 }
 

@@ -18,12 +18,13 @@ struct igabem_solution {
     double *surface_phi;          /* its coefficients there, then those of the hull's edge */
     struct transom *transom;      /* strip and face of a dry one; NULL: none */
     double *strip_phi;            /* coefficients, the rim's phi and its slope */
-    double *velocity;    /* [3][n] coefficients of grad phi on the hull, fluid side; NULL: none */
-    double *sigma_lower; /* [n] with 0.85 of the cut-off, NULL: not asked for */
-    double *sigma_upper; /* [n] with 1.15 */
-    double condition;    /* 1-norm estimate, NAN without a solve */
-    size_t iterations;   /* of GMRES with the cut-off itself, 0 with LU */
-    double residual;     /* relative, the largest of its solves; NAN with LU */
+    double *velocity;     /* [3][n] coefficients of grad phi on the hull, fluid side; NULL: none */
+    double *sigma_lower;  /* [n] with 0.85 of the cut-off, NULL: not asked for */
+    double *sigma_upper;  /* [n] with 1.15 */
+    double *sigma_change; /* [n] sigma less what it is on half the knots, NULL: not known */
+    double condition;     /* 1-norm estimate, NAN without a solve */
+    size_t iterations;    /* of GMRES with the cut-off itself, 0 with LU */
+    double residual;      /* relative, the largest of its solves; NAN with LU */
     struct igabem_cost cost;
     double seconds;
     double memory; /* bytes of influences and matrix */
