@@ -158,8 +158,8 @@ static void test_resume(void)
 static void test_designs(void)
 {
     static struct history h;
-    static const char *const names[] = {"random", "lhs"};
-    for (size_t k = 0; k < 2; k++) {
+    static const char *const names[] = {"random", "lhs", "random, space: parameters"};
+    for (size_t k = 0; k < 3; k++) {
         run_whole(names[k], BUDGET, &h);
         CU_ASSERT_EQUAL(h.n, BUDGET + 1);
         for (size_t i = 0; i < h.n; i++)

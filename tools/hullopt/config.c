@@ -181,6 +181,10 @@ static const struct setting ROWS[] = {
     ROW("solver.surface_cells", NUMBER, solver.surface_cells,
         "of exterior, cells of the free surface along the hull", SETTING_FROM(4, 1000),
         .words = SURFACE),
+    ROW("solver.surface_first", NUMBER, solver.surface_first,
+        "of exterior, width of its first row over the length of a cell: wider follows steeper "
+        "waterlines",
+        SETTING_FROM(0.1, 10), .words = SURFACE),
     ROW("solver.tolerance", NUMBER, solver.tolerance, "relative error asked of the quadrature",
         SETTING_INSIDE(0, 0.1)),
     ROW("search.method", CHOICE, method, "how the best design is looked for", .choice = method,

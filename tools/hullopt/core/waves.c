@@ -7,15 +7,40 @@
 /* The pictured field in lengths: ahead, astern and abeam of the hull. */
 static const double AHEAD = 0.2, ASTERN = 1.0, ABEAM = 0.65;
 
-static bool make_field(const struct problem *problem, const struct design *design, struct waves *w)
+/* A free surface that was solved on a grid of its own bounds the picture; its lines run along the
+ * hull, so that the outermost is straight. */
+static bool keep_within_surface(const igabem_solution *solution, double x[2], double *side)
+{
+    size_t size[2];
+    if (igabem_free_surface_grid(solution, size, NULL, NULL) != IGABEM_OK)
+        return true;
+    size_t n = size[0] * size[1];
+    double *at = malloc(2 * n * sizeof *at);
+    if (!at)
+        return core_no_memory();
+    bool ok = igabem_free_surface_grid(solution, size, at, at + n) == IGABEM_OK ||
+              core_fail("waves: %s", igabem_last_error());
+    if (ok) {
+        x[0] = fmax(x[0], at[n - 1]);
+        x[1] = fmin(x[1], at[0]);
+        *side = fmin(*side, at[2 * n - 1]);
+    }
+    free(at);
+    return ok;
+}
+
+static bool make_field(const struct problem *problem, const struct design *design,
+                       const igabem_solution *solution, struct waves *w)
 {
     const struct config *config = problem->config;
     const nurbs_hydrostatics *h = nurbs_hull_hydrostatics(design->hull);
-    double length = problem_length(problem);
-    double first = h->x_aft - ASTERN * length, last = h->x_fore + AHEAD * length;
-    *w = (struct waves){.nx = config->waves_along, .ny = config->waves_across, .x0 = first};
-    w->dx = (last - first) / (double)(w->nx - 1);
-    w->dy = ABEAM * length / (double)(w->ny - 1);
+    double length = problem_length(problem), side = ABEAM * length;
+    double x[2] = {h->x_aft - ASTERN * length, h->x_fore + AHEAD * length};
+    if (!keep_within_surface(solution, x, &side))
+        return false;
+    *w = (struct waves){.nx = config->waves_along, .ny = config->waves_across, .x0 = x[0]};
+    w->dx = (x[1] - x[0]) / (double)(w->nx - 1);
+    w->dy = side / (double)(w->ny - 1);
     w->elevation = malloc(w->nx * w->ny * sizeof *w->elevation);
     return w->elevation || core_no_memory();
 }
@@ -46,13 +71,12 @@ static bool compute(const struct problem *problem, bool best, struct record *rec
 {
     const struct design *design = best ? &problem->best : &problem->parent;
     igabem_solution *solution = NULL;
-    struct waves w;
-    if (!make_field(problem, design, &w))
-        return false;
-    const double frame[] = {w.x0, w.dx, w.y0, w.dy};
+    struct waves w = {.elevation = NULL};
     bool ok = igabem_solve(design->body, &problem->solver, &solution) == IGABEM_OK ||
               core_fail("waves: %s", igabem_last_error());
-    ok = ok && elevations(solution, &w) && record_put_array(record, NAMES[best][0], 1, 4, frame) &&
+    ok = ok && make_field(problem, design, solution, &w) && elevations(solution, &w);
+    const double frame[] = {w.x0, w.dx, w.y0, w.dy};
+    ok = ok && record_put_array(record, NAMES[best][0], 1, 4, frame) &&
          record_put_array(record, NAMES[best][1], w.nx, w.ny, w.elevation);
     free(w.elevation);
     igabem_solution_free(solution);
