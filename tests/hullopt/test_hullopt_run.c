@@ -214,6 +214,61 @@ static void test_speeds(void)
     json_decref(s);
 }
 
+/* Spearman's correlation of distinct values, by the squares of the differences of the ranks. */
+static double rank_correlation(const json_t *a, const json_t *b)
+{
+    size_t n = json_array_size(a);
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) {
+        double difference = 0;
+        for (size_t k = 0; k < n; k++) {
+            difference +=
+                json_number_value(json_array_get(a, k)) < json_number_value(json_array_get(a, i));
+            difference -=
+                json_number_value(json_array_get(b, k)) < json_number_value(json_array_get(b, i));
+        }
+        sum += difference * difference;
+    }
+    return 1 - 6 * sum / (double)(n * (n * n - 1));
+}
+
+/* How alike two formulations rank the designs, at each speed, in the summary and as pictures. */
+static void test_agreement(void)
+{
+    char path[200], folder[200];
+    runner_write(
+        &runner, "agree.yaml",
+        "hull: " EXAMPLES_DIR "/hulls/wigley.json\nshape: " EXAMPLES_DIR "/wigley_shape.yaml\n"
+        "grid: {sections: 21, girth: 9}\nlatent: {samples: 200}\nflow: {froude: 0.316}\n"
+        "solver: {formulation: hogner, tolerance: 1e-3}\nreconstruction: {tolerance: 1e-3}\n"
+        "constraints: {speeds: 5}\nwaves: {along: 6, across: 4}\n"
+        "search: {method: lhs, initial: 5, iterations: 4, models: [michell]}\n"
+        "verification: {refine: 0, froude: [0.27]}\n");
+    runner_path(&runner, "agree.yaml", path, sizeof path);
+    runner_path(&runner, "agree", folder, sizeof folder);
+    const char *const run[] = {"run", path, "--out", folder, "--json", NULL};
+    CU_ASSERT_EQUAL_FATAL(runner_run(&runner, run), 0);
+    json_t *s = json_loads(runner.out, 0, NULL);
+    const json_t *rows = json_object_get(s, "agreement");
+    CU_ASSERT_EQUAL_FATAL(json_array_size(rows), 2);
+    CU_ASSERT_EQUAL(number(json_array_get(rows, 1), "fr", NULL), 0.27);
+    for (size_t r = 0; r < 2; r++) {
+        const json_t *row = json_array_get(rows, r),
+                     *rank = json_object_get(row, "rank_correlation");
+        const json_t *ratio = json_object_get(row, "cw_ratio");
+        CU_ASSERT_EQUAL(number(row, "designs", NULL), 9);
+        CHECK_CLOSE(json_number_value(json_array_get(json_array_get(rank, 0), 0)), 1, 1e-12);
+        CHECK_CLOSE(json_number_value(json_array_get(json_array_get(rank, 0), 1)),
+                    rank_correlation(json_array_get(ratio, 0), json_array_get(ratio, 1)), 1e-12);
+    }
+    json_decref(s);
+    char report[220];
+    snprintf(report, sizeof report, "%s/report.html", folder);
+    static char page[2000000];
+    runner_read(report, page, sizeof page);
+    CU_ASSERT_EQUAL(count(page, "Designs by each formulation"), 2);
+}
+
 static void check_refusal(const char *const *arguments, int code, const char *part)
 {
     int got = runner_run(&runner, arguments);
@@ -432,6 +487,7 @@ static const struct check_case cases[] = {
     {"report again", test_report_again},
     {"report elsewhere", test_report_elsewhere},
     {"other speeds bounded", test_speeds},
+    {"how alike models rank", test_agreement},
     {"a folder that holds a run", test_existing_run},
     {"usage", test_usage},
     {"bad hulls", test_bad_hulls},

@@ -93,6 +93,7 @@ bool report_write(FILE *out, const struct results *r)
     hull_section(out, r);
     wave_section(out, r);
     report_verification(out, r);
+    report_agreement(out, r);
     latent_section(out, r);
     report_settings(out, r);
     fputs("</main></body></html>\n", out);

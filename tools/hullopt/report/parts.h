@@ -11,6 +11,8 @@ void report_head(FILE *out, const struct results *results);
 void report_particulars(FILE *out, const struct results *results);
 void report_failures(FILE *out, const struct results *results);
 void report_verification(FILE *out, const struct results *results);
+/* Nothing without search.models. */
+void report_agreement(FILE *out, const struct results *results);
 void report_settings(FILE *out, const struct results *results);
 
 #endif

@@ -1,6 +1,7 @@
 #include "cli.h"
 #include "core/constraints.h"
 #include "json_result.h"
+#include "report/agreement.h"
 #include "report/outputs.h"
 #include "report/particulars.h"
 
@@ -134,6 +135,29 @@ static json_t *robust(const struct verdict *v)
     return o;
 }
 
+static json_t *agreement(const struct results *r)
+{
+    struct agreement a;
+    json_t *list = json_array();
+    for (size_t s = 0; s <= r->problem->speeds && agreement_of(r, s, &a); s++) {
+        json_t *o = json_object(), *names = json_array(), *rank = json_array(),
+               *ratio = json_array();
+        for (size_t k = 0; k < a.models; k++) {
+            json_result_append(names, json_string(a.name[k]));
+            json_result_append(rank, array(a.models, a.rank[k]));
+            json_result_append(ratio, array(a.n, a.ratio[k]));
+        }
+        put(o, "fr", a.froude);
+        put_count(o, "designs", a.n);
+        json_result_set(o, "formulations", names);
+        json_result_set(o, "rank_correlation", rank);
+        json_result_set(o, "cw_ratio", ratio);
+        json_result_append(list, o);
+        agreement_free(&a);
+    }
+    return list;
+}
+
 /* "key = value" lines as an object of texts and numbers. */
 static json_t *settings(const char *text)
 {
@@ -236,6 +260,7 @@ json_t *summary_make(const struct results *r)
     json_result_set(o, "particulars", particulars(r));
     json_result_set(o, "verification", verification(r));
     json_result_set(o, "robust", robust(&r->verdict));
+    json_result_set(o, "agreement", agreement(r));
     json_result_set(o, "failures", failures(r));
     json_result_set(o, "settings", settings(r->problem->config->text));
     json_result_set(o, "solver", solver(&r->problem->solver));
