@@ -144,8 +144,13 @@ static const struct {
     {"objective:\n  weights: [1, 1]\n", ":6:", "has 2 numbers, expected 1"},
     {"objective:\n  weights: [0]\n", ":6:", "are all 0"},
     {"objective:\n  quantity: total\n", ":6:", "total-resistance"},
-    {"objective:\n  quantity: wave-resistance\nsearch:\n  method: gauss-newton\n",
+    {"objective:\n  weights: [1, 1]\nverification: {froude: [0.2]}\nsearch: {method: "
+     "gauss-newton}\n",
      ":6:", "is not for gauss-newton"},
+    {"objective: {quantity: total-resistance}\nsearch: {method: gauss-newton, models: [michell], "
+     "confirm: "
+     "0.5}\n",
+     ":6:", "search.confirm"},
     {"search:\n  method: annealing\n", ":6:", "particle-swarm"},
     {"constraints:\n  gm: [0.9, 2]\n", ":6:", "needs constraints.kg"},
     {"constraints:\n  stations: [0.9, 1.1]\n", ":6:", "needs constraints.at_stations"},

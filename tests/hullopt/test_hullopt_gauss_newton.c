@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { N = 3, R = IGABEM_WAVE_RESIDUALS, SETTINGS = 2, POINTS = 1 };
+enum { N = 3, R = GN_RESIDUALS, SETTINGS = 2, POINTS = 1 };
 
 /* Residuals x - target_m with a bend: the first components are bent by curvature |x|^2, the rest
  * are constant, so that |r|^2 has its least value where x is the target when nothing is bent. The

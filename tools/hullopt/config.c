@@ -248,7 +248,7 @@ static void check_places(struct settings_source *source, const struct config *c)
                               c->particular[i][0], c->particular[i][1]);
 }
 
-/* The derivatives of the descent are those of C_w at one speed. */
+/* The derivatives of the descent are those of a sum of squares at one speed. */
 static void check_objective(struct settings_source *source, const struct config *c)
 {
     double sum = 0;
@@ -260,9 +260,12 @@ static void check_objective(struct settings_source *source, const struct config 
                           c->weights, 1 + c->verify_froudes);
     else if (c->weights && !(sum > 0))
         settings_complain(source, "objective.weights", "are all 0");
-    if ((c->weights || c->quantity != QUANTITY_CW) && method_row(c->method)->kind == METHOD_DESCENT)
-        settings_complain(source, c->weights ? "objective.weights" : "objective.quantity",
-                          "is not for %s, which lowers C_w at flow.froude",
+    bool descent = method_row(c->method)->kind == METHOD_DESCENT;
+    if (c->weights && descent)
+        settings_complain(source, "objective.weights", "is not for %s, which lowers one speed's",
+                          method_row(c->method)->name);
+    if (c->quantity != QUANTITY_CW && !isnan(c->confirm) && descent)
+        settings_complain(source, "search.confirm", "is about C_w, which alone it lowers with %s",
                           method_row(c->method)->name);
 }
 

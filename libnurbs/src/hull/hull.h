@@ -32,6 +32,10 @@ hull_box hull_box_empty(void);
 nurbs_status hull_box_widen(const nurbs_surface *surface, hull_box *box);
 nurbs_status hull_box_of(const nurbs_patches *patches, hull_box *box);
 
+/* Puts edges that lie within the clearance of the water, or within the cut or `moved` of the centre
+ * plane, there. Creates a surface. */
+nurbs_status hull_settle_edges(const nurbs_hull *hull, const nurbs_surface *patch, double level,
+                               double moved, nurbs_surface **settled);
 /* Adds a sentence to the report. */
 __attribute__((format(printf, 2, 3))) nurbs_status hull_tell(nurbs_hull *hull, const char *format,
                                                              ...);

@@ -34,12 +34,21 @@ static double tolerance(const nurbs_hull *hull)
     return share * hull->length;
 }
 
-static nurbs_status skin_and_cut(const hull_space *space, const nurbs_grid *grid, double within,
-                                 nurbs_surface **full, nurbs_surface **wetted, double *deviation)
+/* A stem that a section through the grid's points leaves by less than the tolerance stays in the
+ * centre plane, as in a hull that is read. */
+static nurbs_status skin_and_cut(const nurbs_hull *hull, const hull_space *space,
+                                 const nurbs_grid *grid, nurbs_surface **full,
+                                 nurbs_surface **wetted, double *deviation)
 {
+    nurbs_surface *cut = NULL;
     nurbs_status status = stage(hull_space_skin(space, grid, full), "skin");
-    return status ? status
-                  : stage(surface_wetted(*full, 0, within, wetted, deviation), "waterline");
+    if (!status)
+        status = stage(surface_wetted(*full, 0, cut_share * tolerance(hull), &cut, deviation),
+                       "waterline");
+    if (!status)
+        status = hull_settle_edges(hull, cut, 0, tolerance(hull), wetted);
+    nurbs_surface_free(cut);
+    return status;
 }
 
 static nurbs_status thin(const nurbs_surface *wetted, double within, nurbs_surface **light,
@@ -78,8 +87,7 @@ static nurbs_status lighten(nurbs_hull *hull, const hull_space *space, const nur
 static nurbs_status build(nurbs_hull *hull, const hull_space *space, const nurbs_grid *grid)
 {
     nurbs_surface *full = NULL, *wetted = NULL, *light = NULL;
-    nurbs_status status =
-        skin_and_cut(space, grid, cut_share * tolerance(hull), &full, &wetted, &hull->deviation);
+    nurbs_status status = skin_and_cut(hull, space, grid, &full, &wetted, &hull->deviation);
     if (!status)
         status = add_to(&hull->full, full);
     if (!status)
@@ -129,8 +137,8 @@ static nurbs_status start_space(const nurbs_hull *parent, const nurbs_grid *grid
                                 hull_space **space)
 {
     nurbs_surface *full = NULL, *wetted = NULL, *light = NULL;
-    double fine = cut_share * tolerance(parent), deviation;
-    nurbs_status status = skin_and_cut(NULL, grid, fine, &full, &wetted, &deviation);
+    double deviation;
+    nurbs_status status = skin_and_cut(parent, NULL, grid, &full, &wetted, &deviation);
     if (!status)
         status = thin(wetted, knot_share * tolerance(parent), &light, NULL);
     if (!status)
@@ -147,8 +155,7 @@ static nurbs_status widen_space(const nurbs_hull *parent, const nurbs_grid *desi
 {
     nurbs_surface *full = NULL, *wetted = NULL;
     double deviation;
-    nurbs_status status =
-        skin_and_cut(space, design, cut_share * tolerance(parent), &full, &wetted, &deviation);
+    nurbs_status status = skin_and_cut(parent, space, design, &full, &wetted, &deviation);
     if (!status)
         status = hull_space_widen(space, wetted, tolerance(parent));
     nurbs_surface_free(full);

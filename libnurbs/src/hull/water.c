@@ -86,8 +86,8 @@ static void settle_edge(double *points, const size_t n[2], int e, size_t coordin
 /* Edges that lie within the clearance of the water and as close to the centre plane as the cut has
  * to be, or as the lift moved points off it, are put there: a counter's profile that an
  * interpolation makes swing about the plane is no rim of a transom. */
-static nurbs_status settle_edges(const nurbs_hull *hull, const nurbs_surface *patch, double level,
-                                 double moved, nurbs_surface **settled)
+nurbs_status hull_settle_edges(const nurbs_hull *hull, const nurbs_surface *patch, double level,
+                               double moved, nurbs_surface **settled)
 {
     double centre = fmax(moved, fmin(hull->options.cut, centre_reach * hull->extent));
     const size_t n[2] = {nurbs_surface_size(patch, 0), nurbs_surface_size(patch, 1)};
@@ -131,7 +131,7 @@ static nurbs_status wet_patch(nurbs_hull *hull, const nurbs_surface *patch, doub
     const double shift[3] = {0.0, 0.0, -level};
     for (size_t k = 0; !status && k < nurbs_patches_count(below); k++) {
         nurbs_surface *settled = NULL, *moved = NULL;
-        status = settle_edges(hull, nurbs_patches_get(below, k), level, lifted_by, &settled);
+        status = hull_settle_edges(hull, nurbs_patches_get(below, k), level, lifted_by, &settled);
         if (!status && level != 0.0)
             status = nurbs_surface_transform(settled, NULL, shift, &moved);
         if (!status)

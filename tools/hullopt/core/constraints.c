@@ -213,6 +213,17 @@ static bool know_particulars(struct known *known)
     return ok;
 }
 
+/* How far the original itself reaches across the centre plane: a profile that swings about it. */
+static double parent_least(const struct problem *problem)
+{
+    const double *points = nurbs_grid_points(problem->grid);
+    size_t n = nurbs_grid_rows(problem->grid) * nurbs_grid_columns(problem->grid);
+    double least = 0;
+    for (size_t k = 0; k < n; k++)
+        least = fmin(least, points[3 * k + 1]);
+    return least;
+}
+
 int limits_evaluate(void *user_data, size_t d, const double *u, double *value)
 {
     const struct problem *problem = user_data;
@@ -224,7 +235,7 @@ int limits_evaluate(void *user_data, size_t d, const double *u, double *value)
         return 1;
     if (asks_particulars(problem->config) && !know_particulars(&known))
         return 1;
-    *value++ = -known.least / problem_length(problem) - TOUCH;
+    *value++ = (parent_least(problem) - known.least) / problem_length(problem) - TOUCH;
     for (size_t k = 0; k < ROWS; k++) {
         const struct constraint c = row(k);
         double ratio[2];

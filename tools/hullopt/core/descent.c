@@ -3,6 +3,7 @@
 #include "core/constraints.h"
 #include "core/forecast.h"
 #include "core/gn_model.h"
+#include "core/objective.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -35,8 +36,7 @@ static bool look(void *user_data, igabem_solution *const *solutions)
     struct descent *d = user_data;
     struct gn_sample *s = d->sample;
     for (size_t m = 0; m < d->problem.settings; m++)
-        if (igabem_wave_residuals(solutions[m], s->residual + m * IGABEM_WAVE_RESIDUALS) !=
-            IGABEM_OK)
+        if (igabem_wave_residuals(solutions[m], s->residual + m * GN_RESIDUALS) != IGABEM_OK)
             return core_fail("forces: %s", igabem_last_error());
     if (!d->problem.points)
         return true;
@@ -50,6 +50,25 @@ static bool look(void *user_data, igabem_solution *const *solutions)
     free(point);
     return same ||
            core_fail("forces: %zu samples of the pressure, the parent has %zu", n, s->points);
+}
+
+/* What is lowered in place of C_w by the settings at flow.froude: (C_w + (1 + k) C_f) S / S_0 of
+ * the original's surface S_0. A resistance is a sum of squares too: each residual times sqrt(S /
+ * S_0), and one more for the friction. */
+static void take_surface(const struct descent *d, double area, bool valued, struct gn_sample *s)
+{
+    const struct config *config = d->base->config;
+    double share = area / nurbs_hull_hydrostatics(d->base->parent.hull)->wetted_area;
+    double friction = objective_friction(config, problem_length(d->base));
+    for (size_t m = 0; m < d->problem.settings; m++) {
+        double *r = s->residual + m * GN_RESIDUALS;
+        bool counts = m <= config->models && config->quantity != QUANTITY_CW;
+        for (int i = 0; i < IGABEM_WAVE_RESIDUALS && counts; i++)
+            r[i] *= sqrt(share);
+        r[IGABEM_WAVE_RESIDUALS] = counts ? sqrt(friction * share) : 0;
+        if (valued && counts)
+            s->value[m] = (s->value[m] + friction) * share;
+    }
 }
 
 static bool is_parent(const struct descent *d, const double *u)
@@ -105,6 +124,7 @@ static enum gn_answer fine(void *user_data, const double *u, struct gn_sample *s
     if (e.failed)
         return GN_FAILED;
     keep_values(&e, sample);
+    take_surface(d, e.wetted_area, true, sample);
     return GN_VALUED;
 }
 
@@ -128,6 +148,8 @@ static enum gn_answer coarse(void *user_data, const double *u, struct gn_sample 
     if (ok) {
         d->sample = sample;
         ok = look(d, solutions);
+        if (ok)
+            take_surface(d, nurbs_hull_hydrostatics(design.hull)->wetted_area, false, sample);
         for (size_t m = 0; m < d->problem.settings; m++)
             igabem_solution_free(solutions[m]);
     }
@@ -239,6 +261,7 @@ static enum gn_answer value_parent(void *user_data, const double *u, struct gn_s
     if (e.failed)
         return GN_FAILED;
     keep_values(&e, sample);
+    take_surface(d, e.wetted_area, true, sample);
     return GN_VALUED;
 }
 

@@ -42,9 +42,12 @@ static bool make_folder(const struct config *config, const char *here, const cha
                      config->folder);
     if (n < 0 || n > PATH_MAX - 64)
         return core_fail("folder: %s", strerror(ENAMETOOLONG));
-    if (mkdir(parent, 0777) != 0 && errno != EEXIST)
-        return core_fail("%s: %s", parent, strerror(errno));
     sprintf(parent + n, "/%s", kind);
+    for (char *slash = parent + 1; (slash = strchr(slash, '/')) != NULL; *slash++ = '/') {
+        *slash = '\0'; /* those above it, where there are none yet */
+        if (mkdir(parent, 0777) != 0 && errno != EEXIST && access(parent, X_OK) != 0)
+            return core_fail("%s: %s", parent, strerror(errno));
+    }
     unsigned long long number = 1;
     do
         snprintf(folder, PATH_MAX, "%.*s/%06llu", PATH_MAX - 40, parent, number);

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { R = IGABEM_WAVE_RESIDUALS };
+enum { R = GN_RESIDUALS };
 /* Radii in half widths of the box: models of the Kochin function hold to about 0.4. */
 static const double FIRST_RADIUS = 0.4, LEAST_RADIUS = 0.02, MOST_RADIUS = 1, GROWTH = 1.5,
                     RESTART_RADIUS = 0.1;

@@ -1,6 +1,6 @@
 /* Gauss-Newton search on what the solver sees rather than on C_w: wave residuals r_m of several
- * settings, |r_m|^2 = C_w, and the velocities that make the pressure, all nearly linear in the
- * shape. They are differentiated on a coarse mesh; each step solves
+ * settings, |r_m|^2 = C_w (or a resistance), and the velocities that make the pressure, all nearly
+ * linear in the shape. They are differentiated on a coarse mesh; each step solves
  *
  *     min tau + penalty e   s.t.  |r_m + J_m d|^2 / C_m <= tau                       (objective),
  *                                 |r_m + J_m d|^2 / C_m <= offset_m + share_m tau + e   (others),
@@ -30,10 +30,14 @@ static inline bool gn_is_objective(const struct gn_setting *setting)
     return setting->share == 1 && setting->offset == 0;
 }
 
+/* Those of the waves, and one for the friction where the total resistance is lowered. */
+enum { GN_RESIDUALS = IGABEM_WAVE_RESIDUALS + 1 };
+
 /* What the fine or the coarse mesh says of a design. */
 struct gn_sample {
-    double *residual; /* [settings][IGABEM_WAVE_RESIDUALS] */
-    double *value;    /* [settings] C_w, of the fine mesh by its adaptive integral */
+    double *residual; /* [settings][GN_RESIDUALS] */
+    double *value;    /* [settings] the sum of their squares, of the fine mesh by its adaptive
+                         integral: C_w, or a resistance */
     size_t points;    /* of the pressure; 0: not bounded */
     igabem_pressure_sample *point;
     double pressure; /* C_w by pressure */

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { R = IGABEM_WAVE_RESIDUALS, POINT = sizeof(igabem_pressure_sample) / sizeof(double) };
+enum { R = GN_RESIDUALS, POINT = sizeof(igabem_pressure_sample) / sizeof(double) };
 static const double LIMIT_STEP = 1e-5; /* of the differences of the known limits, half widths */
 
 bool gn_model_create(const struct gn_problem *problem, struct gn_model *model)

@@ -11,7 +11,7 @@ struct gn_model {
     struct gn_sample base; /* its fine values, borrowed */
     double *parent;        /* [settings] C_w of the parent */
     double parent_pressure;
-    double *jacobian; /* [settings][n][IGABEM_WAVE_RESIDUALS] */
+    double *jacobian; /* [settings][n][GN_RESIDUALS] */
     double *pressure; /* [n][5 points] */
     double margin;    /* by which the limits that only solves tell are tightened */
     double penalty;   /* of the largest excess over them, on the objective's scale */

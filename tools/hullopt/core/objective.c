@@ -21,6 +21,11 @@ static double friction(const struct config *config, double length, double froude
                : 0;
 }
 
+double objective_friction(const struct config *config, double length)
+{
+    return friction(config, length, config->solver.froude);
+}
+
 /* The quantity by model m: 0, that of the solver. */
 static double quantity(const struct config *config, double length, const struct evaluation *e,
                        size_t m)

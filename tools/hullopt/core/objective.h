@@ -10,6 +10,9 @@
 double objective_total_resistance(const struct config *config, double length,
                                   const struct evaluation *e);
 
+/* (1 + k) C_f at flow.froude where it is lowered, else 0. */
+double objective_friction(const struct config *config, double length);
+
 /* The parent's C_w times the ratio of the objectives of the two; NAN where either has none. */
 double objective_of(const struct config *config, double length, const struct evaluation *e,
                     const struct evaluation *parent);

@@ -5,7 +5,9 @@
 #include "core/optimise.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 const nurbs_hull *results_hull(const struct results *r, int which)
 {
@@ -42,9 +44,12 @@ static bool read_parameters(const struct record *record, struct results *r)
 /* The verification is about C_w, which was not lowered. */
 static void tell_of_command(struct results *r)
 {
-    char *text = r->verdict.statement, of_cw[sizeof r->verdict.statement];
-    snprintf(of_cw, sizeof of_cw, "%s", text);
-    snprintf(text, sizeof of_cw,
+    char *text = r->verdict.statement, of_cw[sizeof r->verdict.statement + 20];
+    static const char objective[] = "The objective sees", solver[] = "The solver sees";
+    bool sees = strncmp(text, objective, sizeof objective - 1) == 0;
+    snprintf(of_cw, sizeof of_cw, "%s%s", sees ? solver : "",
+             text + (sees ? sizeof objective - 1 : 0));
+    snprintf(text, sizeof r->verdict.statement,
              "The number of the command changes by %+.1f %%. C_w, which was not lowered: %.800s",
              100 * (r->best->value / r->baseline->value - 1), of_cw);
 }

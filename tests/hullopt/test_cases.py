@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+"""The cases of examples/, as their comments say, in a small form: few designs, no verification.
+usage: test_cases.py BIN EXAMPLES CASE"""
+
+import json
+import math
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+binaries, examples, case = sys.argv[1:]
+os.environ["PATH"] = binaries + ":" + os.environ["PATH"]
+folder = tempfile.TemporaryDirectory()
+os.chdir(folder.name)
+
+
+def do(*words):
+    end = subprocess.run(words, capture_output=True, text=True)
+    assert end.returncode == 0, (words, end.stdout, end.stderr)
+    return end.stdout
+
+
+def hydrostatics(path):
+    return json.loads(do("nurbs", "hydrostatics", path, "--json"))
+
+
+def cw(path, *options):
+    return json.loads(do("igabem", "solve", path, *options, "--json"))["results"][0]["cw"]
+
+
+def run(name, *options):
+    """The case with its files beside the folder of the run; its summary."""
+    text = open(f"{examples}/{name}.yaml").read()
+    text = re.sub(r"(hull|shape): (\w+/\S+|\w+_shape.yaml)", rf"\1: {examples}/\2", text)
+    text = re.sub(r"refine: \d", "refine: 0", text) + "\nwaves: {along: 9, across: 5}\n"
+    with open(f"{name}.yaml", "w") as out:
+        out.write(text)
+    do("hullopt", "run", f"{name}.yaml", "--out", "run", *options)
+    return json.load(open("run/summary.json"))
+
+
+def within(value, wanted, tolerance, what):
+    assert abs(value / wanted - 1) <= tolerance, (what, value, wanted)
+
+
+def series60():
+    told = run("series60", "--iterations", "2")
+    do("nurbs", "skin", f"{examples}/hulls/series60.offsets.csv", "-o", "skinned.json")
+    within(told["baseline"]["cw"], cw("skinned.json", "--fr", "0.30", "--formulation", "neumann-kelvin", "--length", "1"),
+           0.1, "C_w of the original as igabem has it on the mesh of the table")
+    before, after = hydrostatics("skinned.json"), hydrostatics("run/best.json")
+    within(after["volume"], before["volume"], 0.011, "displacement")
+    within(after["beam"], before["beam"], 0.021, "beam")
+    within(before["volume"], 0.60 / (7.5 * 7.5 * 2.5), 0.005, "block coefficient of DTMB Report 1712")
+    assert told["reduction_percent"] > 40 and told["failed_designs"] == 0, told["reduction_percent"]
+
+
+def dtmb5415_l2sea():
+    told = run("dtmb5415_l2sea", "--iterations", "1")
+    assert told["modes"] == 14
+    # Published, at the finest grid: 41.5 N (Pellegrini et al. 2022).
+    within(told["total_resistance_before"], 41.5, 0.02, "total resistance of the original")
+    before, after = hydrostatics(f"{examples}/hulls/dtmb5415.json"), hydrostatics("run/best.json")
+    within(after["volume"], before["volume"], 0.002, "displacement")
+    within(after["beam"], before["beam"], 0.05, "beam")
+    within(after["draft"], before["draft"], 0.001, "draft")
+    assert told["constraints"]["boxes"]["satisfied"] and told["constraints"]["boxes"]["after"] >= 1
+    # One step of the descent: its resistance, of waves and surface, is C_w and ITTC-57 of what is on record.
+    best = told["best"]
+    speed = 0.28 * (9.8033 * 5.72) ** 0.5
+    friction = 0.075 / (math.log10(speed * 5.72 / 1.1386e-6) - 2) ** 2
+    within(told["total_resistance_after"], 0.5 * 998.5 * speed ** 2 * best["wetted_area"] * (best["cw"] + friction), 1e-9, "R_t")
+    assert told["evaluations"] == 1
+
+
+def own_iges():
+    do("nurbs", "clean", f"{examples}/hulls/bulb.json", "ship.igs", "--scale", "1000")  # stands for a yard's file
+    do("nurbs", "clean", "ship.igs", "own.igs", "--scale", "0.001")
+    shutil.copy(f"{examples}/own_shape.yaml", "own_shape.yaml")
+    text = open(f"{examples}/own_iges.yaml").read()
+    with open("own_iges.yaml", "w") as out:
+        out.write(re.sub(r"refine: \d", "refine: 0", text.replace("pressure: 1", "pressure: null")) + "\nwaves: {along: 9, across: 5}\n")
+    do("hullopt", "run", "own_iges.yaml", "--out", "run", "--iterations", "2")
+    told = json.load(open("run/summary.json"))
+    options = ("--fr", "0.30", "--length", "1")
+    gain = 1 - cw("run/best.igs", *options) / cw("own.igs", *options)
+    assert gain > 0.1 and abs(100 * gain - told["reduction_percent"]) < 5, (gain, told["reduction_percent"])
+    within(hydrostatics("run/best.step")["volume"], hydrostatics("own.igs")["volume"], 0.021, "displacement")
+
+
+def external_solver():
+    shutil.copy(f"{examples}/external_solver.sh", ".")
+    told = run("external_solver", "--initial", "6", "--iterations", "3", "--jobs", "2")
+    resistance = float(do("sh", "external_solver.sh", "run/best.json").split()[2])
+    within(told["best"]["value"], resistance, 2e-3, "the command's number of the best hull")
+    assert told["best"]["value"] < told["baseline"]["value"] and told["failed_designs"] == 0
+
+
+{f.__name__: f for f in (series60, dtmb5415_l2sea, own_iges, external_solver)}[case]()
