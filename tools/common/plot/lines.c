@@ -177,7 +177,7 @@ static void put_heights(const struct plan *plan, const struct view *view, double
     for (int k = 0; spaced(plan, 2, k, &z); k++) {
         put_ruler(plan, view, false, z, from, to, grid_pen);
         plot_label(plan->plot, view->left + view->scale * to + 6,
-                   view->base - view->scale * z + 3.5, 10, PLOT_START, PLOT_MUTED, "%.3g",
+                   view->base - view->scale * z + 3.5, 12, PLOT_START, PLOT_MUTED, "%.3g",
                    fabs(z - plan->base) < 1e-9 ? 0 : z - plan->base);
     }
     put_ruler(plan, view, false, plan->base, from, to, base_pen);
@@ -207,15 +207,15 @@ static void put_station_lines(const struct plan *plan, const struct view *view, 
         double x = view->left + view->scale * station(plan, k);
         put_ruler(plan, view, true, station(plan, k), low, high, grid_pen);
         if (numbered)
-            plot_label(plan->plot, x, view->base - view->scale * low + 15, 10.5, PLOT_MIDDLE,
+            plot_label(plan->plot, x, view->base - view->scale * low + 15, 12, PLOT_MIDDLE,
                        PLOT_MUTED, "%zu", k);
     }
     if (!numbered)
         return;
     double y = view->base - view->scale * low + 28;
-    plot_text(plan->plot, view->left + view->scale * plan->lines->perpendicular[0], y, 10,
+    plot_text(plan->plot, view->left + view->scale * plan->lines->perpendicular[0], y, 12,
               PLOT_MIDDLE, PLOT_INK, "AP");
-    plot_text(plan->plot, view->left + view->scale * plan->lines->perpendicular[1], y, 10,
+    plot_text(plan->plot, view->left + view->scale * plan->lines->perpendicular[1], y, 12,
               PLOT_MIDDLE, PLOT_INK, "FP");
 }
 
@@ -224,7 +224,7 @@ static void put_number(const struct plan *plan, const struct stroke *stroke, siz
 {
     for (int lift = 0; lift < 6; lift++) {
         double y = stroke->tip[1] - 5 - 12 * lift, x = stroke->tip[0] + 2 * lift * stroke->side;
-        if (!plot_label(plan->plot, x, y, 10.5, PLOT_MIDDLE, PLOT_INK, "%zu", number))
+        if (!plot_label(plan->plot, x, y, 12, PLOT_MIDDLE, PLOT_INK, "%zu", number))
             continue;
         if (lift)
             plot_line(plan->plot, stroke->tip[0], stroke->tip[1] - 1, x, y + 2,
@@ -283,7 +283,7 @@ static bool put_half_breadth(const struct plan *plan, const struct view *view)
     for (int k = 0; spaced(plan, 1, k, &value); k++) {
         put_ruler(plan, view, false, value, plan->low[0], plan->high[0], grid_pen);
         plot_label(plan->plot, view->left + view->scale * plan->high[0] + 6,
-                   view->base - view->scale * value + 3.5, 10, PLOT_START, PLOT_MUTED, "%.3g",
+                   view->base - view->scale * value + 3.5, 12, PLOT_START, PLOT_MUTED, "%.3g",
                    value);
     }
     put_ruler(plan, view, false, 0, plan->low[0], plan->high[0], base_pen);
@@ -309,7 +309,7 @@ void plot_scale_bar(struct plot *plot, double right, double y, double scale, dou
                     "stroke=\"%s\" stroke-width=\"0.7\"/>\n",
                     x + k * unit, y, unit, k % 2 ? "white" : PLOT_INK, PLOT_INK);
         if (k % 2 == 0)
-            plot_label(plot, x + k * unit, y + 17, 10, PLOT_MIDDLE, PLOT_INK,
+            plot_label(plot, x + k * unit, y + 17, 12, PLOT_MIDDLE, PLOT_INK,
                        k < 4 ? "%.3g" : "%.3g m", k * step);
     }
 }

@@ -95,7 +95,7 @@ static void write_marked(FILE *out, const char *text, double size)
         snprintf(part, sizeof part, "%.*s", (int)(mark - text), text);
         plot_escape(out, part);
         snprintf(part, sizeof part, "%.*s", (int)(end - mark - 2), mark + 2);
-        fprintf(out, "<tspan font-size=\"%.1f\" dy=\"%.1f\">", fmax(9, 0.75 * size), 0.25 * size);
+        fprintf(out, "<tspan font-size=\"%.1f\" dy=\"%.1f\">", fmax(10, 0.75 * size), 0.25 * size);
         plot_escape(out, part);
         fputs("</tspan>", out);
         text = end + 1;

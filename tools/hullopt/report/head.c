@@ -24,8 +24,7 @@ static const char STYLE[] =
     ".verdict{border-left:5px solid;border-radius:8px;padding:12px 18px;margin:0 0 20px}\n"
     ".yes{background:#eaf6ee;border-color:#2f9e57}.some{background:#fdf5e3;border-color:#d99a1c}\n"
     ".no{background:#fdecea;border-color:#c4372b}\n"
-    ".two{display:grid;grid-template-columns:1fr 1fr;gap:20px}\n"
-    "@media(max-width:800px){.two{grid-template-columns:1fr}}\n"
+    ".two{display:grid;grid-template-columns:1fr 1fr;gap:20px}.two>*{min-width:0}\n"
     "figure{margin:0 0 12px}svg{width:100%;height:auto;display:block}\n"
     "figcaption,.note{color:#5f6c7a;font-size:13px;margin:4px 0 0}\n"
     "table{border-collapse:collapse;width:100%;font-size:14px;"
@@ -34,8 +33,19 @@ static const char STYLE[] =
     "th,td{padding:5px 10px 5px 0}td{border-bottom:1px solid #eef1f4}\n"
     ".n{text-align:right}tr.total td{font-weight:600}\n"
     ".tag{border-radius:4px;padding:1px 7px;font-size:12px;white-space:nowrap}\n"
-    "code{font:13px/1.5 ui-monospace,Menlo,Consolas,monospace}\n"
-    "@media print{body{background:#fff}section{break-inside:avoid}}\n"
+    "code{font:13px/1.5 ui-monospace,Menlo,Consolas,monospace;overflow-wrap:anywhere}\n"
+    /* On a phone tables and pictures move sideways in their own place: letters stay readable. */
+    "@media screen and (max-width:800px){main{padding:16px 8px 40px}section{padding:16px 12px}"
+    ".two{grid-template-columns:minmax(0,1fr)}figure,table{overflow-x:auto}table{display:block}"
+    "svg{min-width:460px}svg[viewBox^='0 0 1120']{min-width:1010px}"
+    ".card b{white-space:normal}}\n"
+    /* Paper lies on its side, as wide as the pictures. */
+    "@page{size:A4 landscape;margin:6mm}\n"
+    "@media print{body{background:#fff}main{max-width:none;padding:0}"
+    "section{border:0;padding:0}body,p,.note{font-size:12px}table,code{font-size:11px}"
+    "th,td{padding:2px 8px 2px 0}.card "
+    "b{font-size:15px}svg{max-height:185mm}figure,tr,.card,.verdict,h2{break-inside:avoid}"
+    "h2,thead{break-after:avoid}}\n"
     "</style>\n";
 
 static void card(FILE *out, const char *value, const char *label)

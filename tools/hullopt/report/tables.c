@@ -163,13 +163,17 @@ static void setting_rows(FILE *out, const char *line)
         if (!key || strncmp(line, row->key, key) != 0 || strncmp(line + key, " =", 2) != 0)
             continue;
         char *value = strndup(line + key + 2, length - key - 2);
+        line += length + (line[length] == '\n');
+        if (value && !*value) {
+            free(value);
+            continue;
+        }
         fputs("<tr title=\"", out);
         plot_escape(out, row->sentence);
         fprintf(out, "\"><td><code>%s</code></td><td>", row->key);
         plot_escape(out, value ? value : "");
         fputs("</td></tr>\n", out);
         free(value);
-        line += length + (line[length] == '\n');
     }
 }
 
