@@ -13,7 +13,14 @@ bayesopt_status store_error(const struct store *store, const char *doing)
     bayesopt_status status = code == SQLITE_CORRUPT || code == SQLITE_NOTADB ? BAYESOPT_ERROR_FORMAT
                              : code == SQLITE_NOMEM                          ? BAYESOPT_ERROR_MEMORY
                                                                              : BAYESOPT_ERROR_FILE;
-    return bayesopt_fail(status, "%s: %s: %s", store->path, doing, sqlite3_errmsg(store->db));
+    if (code == SQLITE_NOMEM) /* which the message may not tell */
+        return bayesopt_fail(status, "%s: %s: out of memory", store->path, doing);
+    int reason = sqlite3_system_errno(store->db);
+    bool of_system = code == SQLITE_IOERR || code == SQLITE_FULL;
+    return of_system && reason
+               ? bayesopt_fail(status, "%s: %s: %s: %s", store->path, doing,
+                               sqlite3_errmsg(store->db), strerror(reason))
+               : bayesopt_fail(status, "%s: %s: %s", store->path, doing, sqlite3_errmsg(store->db));
 }
 
 bayesopt_status store_execute(struct store *store, const char *sql)
@@ -56,15 +63,25 @@ static void decode(const unsigned char *bytes, size_t n, double *values)
     }
 }
 
-double *store_column_numbers(sqlite3_stmt *statement, int column, size_t n)
+bayesopt_status store_column_numbers(sqlite3_stmt *statement, int column, size_t n, double **values)
 {
+    *values = NULL;
     if (sqlite3_column_type(statement, column) != SQLITE_BLOB ||
         (size_t)sqlite3_column_bytes(statement, column) != 8 * n)
-        return NULL;
-    double *values = malloc((n ? n : 1) * sizeof *values);
-    if (values)
-        decode(sqlite3_column_blob(statement, column), n, values);
-    return values;
+        return BAYESOPT_OK;
+    const void *bytes = sqlite3_column_blob(statement, column);
+    if (bytes || !n)
+        *values = malloc((n ? n : 1) * sizeof **values);
+    if (!*values)
+        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
+    decode(bytes, n, *values);
+    return BAYESOPT_OK;
+}
+
+bool store_column_whole(sqlite3_stmt *statement, int column, int64_t most)
+{
+    int64_t value = sqlite3_column_int64(statement, column);
+    return sqlite3_column_type(statement, column) == SQLITE_INTEGER && value >= 0 && value <= most;
 }
 
 bayesopt_status store_put_meta(struct store *store, const char *key, const double *values, size_t n)
@@ -96,8 +113,8 @@ bayesopt_status store_get_meta(struct store *store, const char *key, double **va
     int code = sqlite3_step(s);
     if (code == SQLITE_ROW) {
         *n = (size_t)sqlite3_column_bytes(s, 0) / 8;
-        *values = store_column_numbers(s, 0, *n);
-        if (!*values)
+        status = store_column_numbers(s, 0, *n, values);
+        if (!status && !*values)
             status =
                 bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: entry '%s' is damaged", store->path, key);
     } else if (code != SQLITE_DONE) {
@@ -129,6 +146,24 @@ static bayesopt_status damaged(const struct store *store, sqlite3_stmt *s, const
                          (long long)sqlite3_column_int64(s, ID), what);
 }
 
+/* The numbers of a column that has some, which are finite. */
+static bayesopt_status read_numbers(const struct store *store, sqlite3_stmt *s, int column,
+                                    size_t n, const char *what, double **values)
+{
+    bayesopt_status status = store_column_numbers(s, column, n, values);
+    bool good = status || *values;
+    for (size_t i = 0; i < n && *values && good; i++)
+        good = isfinite((*values)[i]);
+    return good ? status : damaged(store, s, what);
+}
+
+static bool is_number(sqlite3_stmt *s, int column)
+{
+    int type = sqlite3_column_type(s, column);
+    return (type == SQLITE_FLOAT || type == SQLITE_INTEGER) &&
+           isfinite(sqlite3_column_double(s, column));
+}
+
 /* The outcome columns of a row, into a point that has none yet. */
 static bayesopt_status read_outcome(struct bayesopt *bo, sqlite3_stmt *s, struct point *p)
 {
@@ -142,10 +177,12 @@ static bayesopt_status read_outcome(struct bayesopt *bo, sqlite3_stmt *s, struct
     p->f = NAN;
     p->variance = 0;
     if (sqlite3_column_type(s, NOTE) == SQLITE_TEXT) {
-        p->note = malloc((size_t)sqlite3_column_bytes(s, NOTE) + 1);
+        const char *note = (const char *)sqlite3_column_text(s, NOTE);
+        p->note = note ? strdup(note) : NULL;
         if (!p->note)
             return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
-        strcpy(p->note, (const char *)sqlite3_column_text(s, NOTE));
+    } else if (sqlite3_column_type(s, NOTE) != SQLITE_NULL) {
+        return damaged(bo->store, s, "its note is not a text");
     }
     if (p->state != BAYESOPT_STATE_PENDING) {
         bayesopt_status status = store_get_attributes(bo->store, p);
@@ -156,14 +193,18 @@ static bayesopt_status read_outcome(struct bayesopt *bo, sqlite3_stmt *s, struct
         return BAYESOPT_OK;
     p->f = problem_sign(bo) * sqlite3_column_double(s, F);
     p->variance = sqlite3_column_double(s, VARIANCE);
-    if (sqlite3_column_type(s, F) == SQLITE_NULL || !isfinite(p->f))
+    if (!is_number(s, F))
         return damaged(bo->store, s, "is done without a finite value");
-    if (m && !(p->constraints = store_column_numbers(s, CONSTRAINTS, m)))
-        return damaged(bo->store, s, "its constraints are damaged");
-    if (sqlite3_column_type(s, GRADIENT) != SQLITE_NULL &&
-        !(p->gradient = store_column_numbers(s, GRADIENT, bo->d)))
-        return damaged(bo->store, s, "its gradient is damaged");
-    return BAYESOPT_OK;
+    if (!is_number(s, VARIANCE) || p->variance < 0)
+        return damaged(bo->store, s, "its variance is damaged");
+    bayesopt_status status = BAYESOPT_OK;
+    if (m)
+        status = read_numbers(bo->store, s, CONSTRAINTS, m, "its constraints are damaged",
+                              &p->constraints);
+    if (!status && sqlite3_column_type(s, GRADIENT) != SQLITE_NULL)
+        status =
+            read_numbers(bo->store, s, GRADIENT, bo->d, "its gradient is damaged", &p->gradient);
+    return status;
 }
 
 static bayesopt_status read_row(struct bayesopt *bo, sqlite3_stmt *s)
@@ -171,12 +212,19 @@ static bayesopt_status read_row(struct bayesopt *bo, sqlite3_stmt *s)
     int64_t id = sqlite3_column_int64(s, ID);
     int phase = sqlite3_column_int(s, PHASE), state = sqlite3_column_int(s, STATE);
     int level = sqlite3_column_int(s, LEVEL);
-    if (id < 1 || phase < 0 || phase > BAYESOPT_PHASE_DESCENT || state < 0 ||
-        state > BAYESOPT_STATE_LOST || level < 0 || level >= (int)bo->options.n_levels)
-        return damaged(bo->store, s, "id, phase, state or level is outside its range");
+    if (id < 1 || !store_column_whole(s, PHASE, BAYESOPT_PHASE_DESCENT) ||
+        !store_column_whole(s, STATE, BAYESOPT_STATE_LOST) ||
+        !store_column_whole(s, LEVEL, (int64_t)bo->options.n_levels - 1) ||
+        !store_column_whole(s, CHANGE, INT64_MAX) || !store_column_whole(s, SESSION, INT64_MAX) ||
+        !store_column_whole(s, DETACHED, 1))
+        return damaged(bo->store, s,
+                       "id, change, phase, state, level, session or detached is outside its range");
     struct point *p = history_find(bo, (uint64_t)id);
     if (!p) {
-        double *x = store_column_numbers(s, X, bo->d);
+        double *x;
+        bayesopt_status status = store_column_numbers(s, X, bo->d, &x);
+        if (status)
+            return status;
         bool inside = x && !problem_check_values(bo, 1, x) &&
                       (phase == BAYESOPT_PHASE_EXTERNAL || problem_inside(bo, x));
         if (inside && bo->n_points && bo->points[bo->n_points - 1].id >= (uint64_t)id)
@@ -201,9 +249,7 @@ static bayesopt_status read_state(struct bayesopt *bo)
     double *values;
     size_t n, size = surrogates_state_size(&bo->surrogates, bo->d);
     bayesopt_status status = store_get_meta(bo->store, "models", &values, &n);
-    if (!status && values && n == size)
-        surrogates_restore(&bo->surrogates, bo->d, values);
-    else if (!status && values)
+    if (!status && values && !(n == size && surrogates_restore(&bo->surrogates, bo->d, values)))
         status =
             bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: entry 'models' is damaged", bo->store->path);
     free(values);

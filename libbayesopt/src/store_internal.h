@@ -20,8 +20,12 @@ bayesopt_status store_execute(struct store *store, const char *sql);
 bayesopt_status store_prepare(struct store *store, const char *sql, sqlite3_stmt **statement);
 /* Arrays of doubles as little-endian blobs. */
 bool store_bind_numbers(sqlite3_stmt *statement, int index, const double *values, size_t n);
-/* NULL if the column is not a blob of n numbers. The caller frees. */
-double *store_column_numbers(sqlite3_stmt *statement, int column, size_t n);
+/* A column of n numbers, which the caller frees. Without a blob of this size *values is NULL: the
+ * caller says what is damaged. */
+bayesopt_status store_column_numbers(sqlite3_stmt *statement, int column, size_t n,
+                                     double **values);
+/* Whether a column is a whole number in [0, most]. */
+bool store_column_whole(sqlite3_stmt *statement, int column, int64_t most);
 bayesopt_status store_put_meta(struct store *store, const char *key, const double *values,
                                size_t n);
 /* *values is NULL if there is no such key; *n its length. The caller frees. */

@@ -1,12 +1,14 @@
-/* Names of variables and texts of conditions: one text each, "variable.1", "condition.1", ... */
+/* Names of variables and texts of conditions: one text each, "variable.1", "condition.1", ..., and
+ * how many there are, which older stores do not tell. */
 #include "error.h"
 #include "store_internal.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const char variable[] = "variable", condition[] = "condition";
+static const char variable[] = "variable", condition[] = "condition", named_entry[] = "named";
 
 static bayesopt_status get(struct store *store, const char *kind, size_t i, char **text)
 {
@@ -29,7 +31,8 @@ bayesopt_status store_put_names(struct bayesopt *bo)
         status = put(bo->store, variable, j, bo->names[j]);
     for (size_t i = 0; i < bo->conditions.n && !status; i++)
         status = put(bo->store, condition, i, bo->conditions.texts[i]);
-    return status;
+    const double counts[2] = {bo->named ? (double)bo->d : 0, (double)bo->conditions.n};
+    return status ? status : store_put_meta(bo->store, named_entry, counts, 2);
 }
 
 /* Refuses another text than that of the store; one that has none gets it. */
@@ -58,6 +61,24 @@ bayesopt_status store_compare_names(struct bayesopt *bo)
     return status;
 }
 
+/* None may be lost, names may have been added. */
+static bayesopt_status check_counts(struct store *store, const struct named *named)
+{
+    double *counts;
+    size_t n, names = 0;
+    bayesopt_status status = store_get_meta(store, named_entry, &counts, &n);
+    for (size_t j = 0; j < named->d; j++)
+        names += named->names[j] != NULL;
+    if (!status && counts &&
+        !(n == 2 && (double)names >= counts[0] && (double)named->n == counts[1]))
+        status = bayesopt_fail(
+            BAYESOPT_ERROR_FORMAT,
+            "%s: %zu names of variables and %zu conditions are left of %g and %g", store->path,
+            names, named->n, n == 2 ? counts[0] : (double)NAN, n == 2 ? counts[1] : (double)NAN);
+    free(counts);
+    return status;
+}
+
 bayesopt_status store_get_names(struct store *store, size_t d, struct named *named)
 {
     bayesopt_status status = BAYESOPT_OK;
@@ -73,7 +94,7 @@ bayesopt_status store_get_names(struct store *store, size_t d, struct named *nam
         more = named->conditions[named->n] != NULL;
         named->n += more;
     }
-    return status;
+    return status ? status : check_counts(store, named);
 }
 
 void named_free(struct named *named)

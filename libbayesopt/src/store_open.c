@@ -46,6 +46,7 @@ static bayesopt_status query_count(struct store *store, const char *sql, int64_t
 
 static bayesopt_status check_intact(struct store *store)
 {
+    static const char no_memory[] = "error code=7"; /* SQLITE_NOMEM */
     sqlite3_stmt *s;
     bayesopt_status status = store_prepare(store, "PRAGMA quick_check(1)", &s);
     if (status)
@@ -55,6 +56,9 @@ static bayesopt_status check_intact(struct store *store)
         verdict = (const char *)sqlite3_column_text(s, 0);
     if (!verdict)
         status = store_error(store, "checking the store");
+    else if (strstr(verdict, no_memory))
+        status = bayesopt_fail(BAYESOPT_ERROR_MEMORY, "%s: checking the store: out of memory",
+                               store->path);
     else if (strcmp(verdict, "ok") != 0)
         status = bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: the database is damaged: %s",
                                store->path, verdict);
@@ -98,6 +102,20 @@ static bayesopt_status migrate(struct store *store, int format)
     return status ? status : put_format(store);
 }
 
+/* A point whose number of the change is none would be passed over by whoever reads the changes. */
+static bayesopt_status check_changes(struct store *store)
+{
+    int64_t lost = 0;
+    bayesopt_status status = query_count(
+        store,
+        "SELECT count(*) FROM bayesopt_points WHERE typeof(change) <> 'integer' OR change < 1",
+        &lost);
+    if (!status && lost)
+        status = bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: %lld points whose change is damaged",
+                               store->path, (long long)lost);
+    return status;
+}
+
 /* The format of a store, 0 for an empty file; anything else is refused. */
 static bayesopt_status classify(struct store *store, int *format)
 {
@@ -128,7 +146,7 @@ static bayesopt_status classify(struct store *store, int *format)
     if (!status && found != 1 && found != 2 && found != 3)
         return bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: entry 'format' is damaged", store->path);
     *format = (int)found;
-    return status;
+    return status ? status : check_changes(store);
 }
 
 static void disconnect(struct store *store)

@@ -277,6 +277,30 @@ static bool is_array(size_t field)
            field == KIND || field == FIRST_X;
 }
 
+/* Counts, choices and switches; the others may be any number. */
+static const double MOST_WHOLE = 0x1p53;
+static bool is_whole(size_t field, size_t i)
+{
+    switch (field) {
+    case BOX_LOWER:
+    case BOX_UPPER:
+    case INITIAL_X:
+    case CONSTRAINT_LOWER:
+    case CONSTRAINT_UPPER:
+    case LINEAR_A:
+    case LINEAR_B:
+    case FIRST_X:
+    case LEVEL_COST_RATIO:
+        return false;
+    case MODEL:
+        return i < 3;
+    case STOPS:
+        return i < 1;
+    default:
+        return true;
+    }
+}
+
 /* Arrays must fit each other, everything else has the length it has in any problem. */
 static bayesopt_status check_lengths(const struct store *store, const struct field *f,
                                      const size_t *expected)
@@ -286,6 +310,15 @@ static bayesopt_status check_lengths(const struct store *store, const struct fie
         if (!f[i].values || (!is_array(i) && f[i].n != expected[i]))
             return bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: entry '%s' is damaged", store->path,
                                  f[i].name);
+    for (size_t i = 0; i < FIELDS; i++)
+        for (size_t j = 0; j < f[i].n; j++)
+            if (is_whole(i, j) ? !(f[i].values[j] >= 0 && f[i].values[j] <= MOST_WHOLE &&
+                                   f[i].values[j] == floor(f[i].values[j]))
+                               : isnan(f[i].values[j]))
+                return bayesopt_fail(BAYESOPT_ERROR_FORMAT,
+                                     "%s: entry '%s' is damaged: number %zu "
+                                     "is %g",
+                                     store->path, f[i].name, j, f[i].values[j]);
     double objectives = first(&f[OBJECTIVES]);
     if (!(objectives >= 1 && objectives <= FRONT_MOST_OBJECTIVES) || (double)m + 1 < objectives ||
         !d || f[BOX_UPPER].n != d || f[CONSTRAINT_UPPER].n != m ||
@@ -325,7 +358,9 @@ static bayesopt_status read_fields(struct store *store, struct field *fields, do
     if (status)
         return status;
     status = store_get_meta(store, "budget", &values, &n);
-    if (!status && n != 1)
+    bool good =
+        values && n == 1 && values[0] >= 0 && values[0] <= 0x1p64 && values[0] == floor(values[0]);
+    if (!status && !good)
         status = bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: entry 'budget' is damaged", store->path);
     if (!status)
         *budget = values[0];

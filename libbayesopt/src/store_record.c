@@ -93,9 +93,12 @@ bayesopt_status store_get_text(struct store *store, const char *name, char **tex
         look_up(store, "SELECT value FROM bayesopt_texts WHERE name = ?1", name, &s);
     if (status || !s)
         return status;
-    const char *value = (const char *)sqlite3_column_text(s, 0);
+    bool is_text = sqlite3_column_type(s, 0) == SQLITE_TEXT;
+    const char *value = is_text ? (const char *)sqlite3_column_text(s, 0) : NULL;
     *text = value ? strdup(value) : NULL;
     sqlite3_finalize(s);
+    if (!is_text)
+        return bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: text '%s' is damaged", store->path, name);
     return *text ? BAYESOPT_OK : no_memory();
 }
 
@@ -162,10 +165,13 @@ bayesopt_status bayesopt_store_get_array(const bayesopt *bo, const char *name, s
     if (status || !s)
         return status;
     size_t r = (size_t)sqlite3_column_int64(s, 0), c = (size_t)sqlite3_column_int64(s, 1);
+    bool sized = store_column_whole(s, 0, INT64_MAX) && store_column_whole(s, 1, INT64_MAX);
     /* The blob bounds what the two sizes may claim. */
-    if (!c || r <= (size_t)sqlite3_column_bytes(s, 2) / c)
-        *values = store_column_numbers(s, 2, r * c);
+    if (sized && (!c || r <= (size_t)sqlite3_column_bytes(s, 2) / c))
+        status = store_column_numbers(s, 2, r * c, values);
     sqlite3_finalize(s);
+    if (status)
+        return status;
     if (!*values)
         return bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: array '%s' is damaged", bo->store->path,
                              name);
@@ -214,14 +220,19 @@ bayesopt_status store_put_attributes(struct store *store, const struct point *p)
 }
 
 /* The attribute of a row of an answer (name, number, text), borrowed until the next step. */
-static bayesopt_attribute column_attribute(sqlite3_stmt *s)
+static bayesopt_status column_attribute(struct store *store, sqlite3_stmt *s, bayesopt_attribute *a)
 {
-    return (bayesopt_attribute){
+    int name = sqlite3_column_type(s, 0), number = sqlite3_column_type(s, 1);
+    int text = sqlite3_column_type(s, 2);
+    if (name != SQLITE_TEXT || (text != SQLITE_TEXT && text != SQLITE_NULL) ||
+        (number != SQLITE_FLOAT && number != SQLITE_INTEGER && number != SQLITE_NULL))
+        return bayesopt_fail(BAYESOPT_ERROR_FORMAT, "%s: an attribute is damaged", store->path);
+    *a = (bayesopt_attribute){
         .name = (const char *)sqlite3_column_text(s, 0),
-        .number =
-            sqlite3_column_type(s, 1) == SQLITE_NULL ? (double)NAN : sqlite3_column_double(s, 1),
+        .number = number == SQLITE_NULL ? (double)NAN : sqlite3_column_double(s, 1),
         .text = (const char *)sqlite3_column_text(s, 2),
     };
+    return a->name && (a->text || text == SQLITE_NULL) ? BAYESOPT_OK : no_memory();
 }
 
 bayesopt_status store_get_attributes(struct store *store, struct point *p)
@@ -238,8 +249,9 @@ bayesopt_status store_get_attributes(struct store *store, struct point *p)
     sqlite3_bind_int64(s, 2, (int64_t)p->id);
     int code = SQLITE_DONE;
     while (!status && (code = sqlite3_step(s)) == SQLITE_ROW) {
-        bayesopt_attribute a = column_attribute(s);
-        if (!a.name || !attributes_append(&p->attributes, &a))
+        bayesopt_attribute a;
+        status = column_attribute(store, s, &a);
+        if (!status && !attributes_append(&p->attributes, &a))
             status = no_memory();
     }
     if (!status && code != SQLITE_DONE)
@@ -269,8 +281,11 @@ static bayesopt_status read_table(struct store *store, sqlite3_stmt *s, bayesopt
     int64_t last = 0;
     int code;
     while ((code = sqlite3_step(s)) == SQLITE_ROW) {
-        bayesopt_attribute a = column_attribute(s);
+        bayesopt_attribute a;
+        bayesopt_status status = column_attribute(store, s, &a);
         int64_t row = sqlite3_column_int64(s, 3);
+        if (status)
+            return status;
         if (!table->n || row != last) {
             struct attributes *more = realloc(table->rows, (table->n + 1) * sizeof *more);
             if (!more)
@@ -279,7 +294,7 @@ static bayesopt_status read_table(struct store *store, sqlite3_stmt *s, bayesopt
             more[table->n++] = (struct attributes){0};
             last = row;
         }
-        if (!a.name || !attributes_append(&table->rows[table->n - 1], &a))
+        if (!attributes_append(&table->rows[table->n - 1], &a))
             return no_memory();
     }
     return code == SQLITE_DONE ? BAYESOPT_OK : store_error(store, "reading the store");

@@ -55,8 +55,15 @@ void surrogates_save(const struct surrogates *s, size_t d, double *values)
     }
 }
 
-void surrogates_restore(struct surrogates *s, size_t d, const double *values)
+bool surrogates_restore(struct surrogates *s, size_t d, const double *values)
 {
+    for (size_t i = 0; i <= s->count; i++)
+        for (size_t j = 0; j < HEAD + d; j++) {
+            double value = values[i * (HEAD + d) + j];
+            if (!isfinite(value) ||
+                (j == HEAD - 1 && !(value >= 0 && value <= BAYESOPT_TRANSFORM_AUTO)))
+                return false;
+        }
     for (size_t i = 0; i <= s->count; i++, values += HEAD + d) {
         struct model_state *state = &s->states[i];
         state->known = values[0] != 0;
@@ -69,6 +76,7 @@ void surrogates_restore(struct surrogates *s, size_t d, const double *values)
         memcpy(state->lengthscale, values + HEAD, d * sizeof *values);
     }
     s->fitted = false;
+    return true;
 }
 
 /* Data of one model, gathered from the history. */

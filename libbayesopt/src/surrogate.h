@@ -32,7 +32,7 @@ void surrogates_free(struct surrogates *surrogates);
 /* States as count * (7 + d) numbers, to keep and to restore. */
 size_t surrogates_state_size(const struct surrogates *surrogates, size_t d);
 void surrogates_save(const struct surrogates *surrogates, size_t d, double *values);
-void surrogates_restore(struct surrogates *surrogates, size_t d, const double *values);
+bool surrogates_restore(struct surrogates *surrogates, size_t d, const double *values);
 
 /* Fits all models to the history. keep: the new hyper-parameters become the next warm start. */
 bayesopt_status surrogates_fit(struct bayesopt *bo, bool keep);

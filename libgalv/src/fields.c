@@ -237,9 +237,10 @@ static galv_status check_array(const struct row *row, const galv_field *field,
     /* Of the parameters themselves they stand in the order of these; one may move nothing. */
     bool falling = row->offset == AT(eigenvalues) && model->method != GALV_METHOD_PARAMETERS;
     bool positive = falling || row->offset == AT(weights);
+    static const double rounding = 1e-9; /* of the largest eigenvalue beside the trace */
     for (size_t i = 0; i < rows * columns; i++)
         if (!isfinite(values[i]) || (positive && !(values[i] > 0)) ||
-            (falling && i > 0 && values[i] > values[i - 1]))
+            (falling && values[i] > (i > 0 ? values[i - 1] : model->trace * (1 + rounding))))
             return galv_fail(GALV_ERROR_ARGUMENT, "'%s': entry %zu is %g%s", row->name, i,
                              values[i],
                              falling    ? ", expected positive and falling numbers"

@@ -118,7 +118,7 @@ with tempfile.TemporaryDirectory() as WORK:
     STUDY = b"""store: study.db
 variables:
   - {name: x, lower: 0, upper: 1}
-  - {name: kind, values: [a, b]}
+  - {name: kind, kind: categorical, values: [a, b]}
 objective: {command: "true {x} {kind}", timeout: 5}
 constraints:
   - {name: c, upper: 0}

@@ -71,7 +71,8 @@ static size_t pick_rows(const bayesopt *bo, size_t *rows)
     size_t n = 0;
     bayesopt_point p, q;
     if (bayesopt_objective_count(bo) > 1)
-        return bayesopt_pareto(bo, &n, rows) ? 0 : n;
+        return cli_needed(bayesopt_pareto(bo, &n, rows) == BAYESOPT_ERROR_MEMORY ? NULL : rows) ? n
+                                                                                                : 0;
     double sign = bayesopt_maximises(bo) ? -1 : 1;
     for (size_t i = 0; !bayesopt_get(bo, i, &p); i++) {
         if (p.state != BAYESOPT_STATE_DONE || p.outside)
@@ -143,11 +144,11 @@ static bool figure(FILE *out, bayesopt *bo, const struct names *names, picture *
     if (!draw(&sheet, bo, names))
         return false;
     fputs(narrow ? "<figure class=\"narrow\">\n" : "<figure>\n", out);
-    bool good = plot_embed(&sheet, out);
+    plot_embed(&sheet, out);
     fputs("<figcaption>", out);
     plot_escape(out, caption);
     fputs("</figcaption></figure>\n", out);
-    return good;
+    return true;
 }
 
 /* What needs a model: two values at least, and for its leave-one-out one level. */
@@ -165,8 +166,11 @@ static bool model_section(FILE *out, bayesopt *bo, const struct names *names)
         numbers += moves && bayesopt_variable_kind(bo, j) != BAYESOPT_KIND_CATEGORICAL;
     }
     free(bounds);
-    if (!good || bayesopt_model(bo, &info, NULL) || !movable)
+    if (!good || !movable)
         return good;
+    bayesopt_status status = bayesopt_model(bo, &info, NULL);
+    if (status)
+        return status != BAYESOPT_ERROR_MEMORY || cli_refuse("%s", bayesopt_last_error());
     fprintf(out,
             "<section><h2>Model</h2><p class=\"sub\">fitted to %zu values; transform %s; "
             "leave-one-out error %.3g of the spread</p>\n",

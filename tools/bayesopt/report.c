@@ -174,18 +174,25 @@ static json_t *model_json(bayesopt *bo, const struct names *names)
     return model;
 }
 
-/* Who holds the pending points. */
+/* Who holds the pending points; NULL after a sentence. */
 static json_t *holders_json(bayesopt *bo)
 {
     json_t *list = json_array();
     bayesopt_point p;
     bayesopt_holder h;
-    for (size_t i = 0; !bayesopt_get(bo, i, &p); i++)
-        if (p.state == BAYESOPT_STATE_PENDING && !bayesopt_get_holder(bo, p.id, &h))
-            json_result_append(list, json_pack("{s:I, s:s, s:I, s:f, s:f, s:b, s:b}", "id",
-                                               (json_int_t)p.id, "host", h.host, "process",
-                                               (json_int_t)h.process, "asked", h.asked, "heard",
-                                               h.heard, "alive", h.alive, "detached", h.detached));
+    for (size_t i = 0; !bayesopt_get(bo, i, &p); i++) {
+        if (p.state != BAYESOPT_STATE_PENDING)
+            continue;
+        if (bayesopt_get_holder(bo, p.id, &h)) {
+            cli_fail("%s", bayesopt_last_error());
+            json_decref(list);
+            return NULL;
+        }
+        json_result_append(list, json_pack("{s:I, s:s, s:I, s:f, s:f, s:b, s:b}", "id",
+                                           (json_int_t)p.id, "host", h.host, "process",
+                                           (json_int_t)h.process, "asked", h.asked, "heard",
+                                           h.heard, "alive", h.alive, "detached", h.detached));
+    }
     return list;
 }
 
@@ -227,7 +234,12 @@ static bool show_status(bayesopt *bo, const struct names *names, const struct ar
         "pending", (json_int_t)counts[BAYESOPT_STATE_PENDING], "budget",
         (json_int_t)bayesopt_budget(bo), "initial", (json_int_t)bayesopt_initial_count(bo), "best",
         number_json(f), "model", model_json(bo, names));
-    json_result_set(root, "holders", holders_json(bo));
+    json_t *holders = holders_json(bo);
+    if (!holders) {
+        json_decref(root);
+        return false;
+    }
+    json_result_set(root, "holders", holders);
     if (a->json)
         return print_json(stdout, root);
     printf("%zu done, %zu failed, %zu lost, %zu pending of %zu evaluations (%zu of them the "
@@ -306,16 +318,20 @@ static bool show_history(bayesopt *bo, const struct names *names, const struct a
 {
     struct output output;
     bayesopt_point p;
+    bool whole = true;
     if (!output_open(&output, a->output))
         return false;
     json_t *points = a->json ? json_array() : NULL;
     for (size_t i = 0; a->json && !bayesopt_get(bo, i, &p); i++)
         json_result_append(points, row_json(names, &p));
     if (a->json)
-        print_json(output.stream, json_pack("{s:o}", "points", points));
+        whole = print_json(output.stream, json_pack("{s:o}", "points", points));
     else
         export_csv(output.stream, bo, names);
-    return output_close(&output);
+    if (whole)
+        return output_close(&output);
+    cli_file_abandon(&output.file);
+    return false;
 }
 
 int command_export(int argc, char **argv)

@@ -54,8 +54,10 @@ bool cli_refuse(const char *format, ...)
 
 void *cli_needed(void *memory)
 {
-    if (!memory)
+    if (!memory) {
+        cli_files_remove();
         exit(cli_fail("out of memory"));
+    }
     return memory;
 }
 

@@ -41,8 +41,7 @@ __attribute__((format(printf, 1, 2))) int cli_usage(const char *format, ...);
  */
 __attribute__((format(printf, 1, 2))) bool cli_refuse(const char *format, ...);
 
-/* MEMORY, or the end of the command with "out of memory": while no file is being written, as when
- * options and inputs are read. */
+/* MEMORY, or the end of the command with "out of memory", which leaves no unfinished file. */
 void *cli_needed(void *memory);
 
 /* Prints help or version on stdout and returns as cli_printed(); NULL: there was no memory for it.
@@ -90,6 +89,8 @@ struct cli_file {
 bool cli_file_open(struct cli_file *file, const char *path);
 bool cli_file_commit(struct cli_file *file);
 void cli_file_abandon(struct cli_file *file);
+/* Removes what is unfinished, before the command ends. */
+void cli_files_remove(void);
 
 /* A whole file, with a zero behind it; NULL with errno. The caller frees. */
 char *cli_read(const char *path, size_t *length);

@@ -8,7 +8,26 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { MOST_LINKS = 40 };
+enum { MOST_LINKS = 40, MOST_FILES = 16 };
+
+/* What is being written, so that the end of the command can remove it. */
+static const char *unfinished[MOST_FILES];
+
+static void replace_unfinished(const char *from, const char *to)
+{
+    for (size_t k = 0; k < MOST_FILES; k++)
+        if (unfinished[k] == from) {
+            unfinished[k] = to;
+            return;
+        }
+}
+
+void cli_files_remove(void)
+{
+    for (size_t k = 0; k < MOST_FILES; k++)
+        if (unfinished[k])
+            unlink(unfinished[k]);
+}
 
 /* Devices, FIFOs and whatever stands for an open stream take bytes as they come; a name beside them
  * would not reach whom they lead to. */
@@ -94,6 +113,7 @@ static int open_temporary(struct cli_file *file)
         return -1;
     }
     file->temporary = temporary;
+    replace_unfinished(NULL, temporary);
     mode_t mask = umask(0);
     umask(mask);
     fchmod(descriptor, exists ? info.st_mode & 07777 : 0666 & ~mask);
@@ -149,6 +169,7 @@ bool cli_file_commit(struct cli_file *file)
     }
     if (ok && file->temporary) {
         sync_folder(file->path);
+        replace_unfinished(file->temporary, NULL);
         free(file->temporary);
         file->temporary = NULL;
     }
@@ -161,8 +182,10 @@ void cli_file_abandon(struct cli_file *file)
 {
     if (file->stream)
         fclose(file->stream);
-    if (file->temporary)
+    if (file->temporary) {
         unlink(file->temporary);
+        replace_unfinished(file->temporary, NULL);
+    }
     free(file->temporary);
     free(file->path);
     *file = (struct cli_file){NULL, NULL, NULL};

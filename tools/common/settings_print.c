@@ -1,3 +1,4 @@
+#include "cli.h"
 #include "settings_internal.h"
 
 #include <inttypes.h>
@@ -83,17 +84,16 @@ char *settings_value(const struct setting *row, const void *target)
 {
     char *text = NULL;
     size_t length, n = row->n_most ? row->n_most : row->type < SETTING_ROWS;
-    FILE *out = open_memstream(&text, &length);
-    if (!out)
-        return NULL;
+    FILE *out = cli_needed(open_memstream(&text, &length));
     if (row->count)
         n = *(const size_t *)(const void *)((const char *)target + row->count);
     for (size_t i = 0; i < n && row->type != SETTING_HEADING && row->type != SETTING_ROWS; i++) {
         fputs(i ? ", " : "", out);
         print_entry(row, (const char *)target + row->offset, i, out);
     }
-    fclose(out);
-    return text;
+    bool whole = !ferror(out);
+    whole = fclose(out) == 0 && whole;
+    return cli_needed(whole ? text : NULL);
 }
 
 static bool print_file(const char *path, FILE *out)
@@ -115,29 +115,30 @@ char *settings_text(const struct settings *table, const void *target)
 {
     char *text = NULL;
     size_t length;
-    FILE *out = open_memstream(&text, &length);
-    bool ok = out != NULL;
+    FILE *out = cli_needed(open_memstream(&text, &length));
+    bool ok = true;
     for (size_t r = 0; ok && r < table->n; r++) {
         const struct setting *row = &table->rows[r];
         if (!row->key || row->type == SETTING_ROWS)
             continue;
         char *value = settings_value(row, target);
-        ok = value != NULL;
-        fprintf(out, "%s =%s", row->key, ok && *value ? " " : "");
-        for (char *c = value; ok && *c; c++)
+        fprintf(out, "%s =%s", row->key, *value ? " " : "");
+        for (char *c = value; *c; c++)
             *c = *c == '\n' ? ' ' : *c;
-        if (ok && *value && row->type == SETTING_FILE)
+        if (*value && row->type == SETTING_FILE)
             ok = print_file(value, out);
-        else if (ok)
+        else
             fputs(value, out);
         fputc('\n', out);
         free(value);
     }
-    if (out && (fclose(out) != 0 || !ok)) {
-        free(text);
-        return NULL;
-    }
-    return text;
+    bool whole = !ferror(out);
+    whole = fclose(out) == 0 && whole;
+    cli_needed(whole ? text : NULL);
+    if (ok)
+        return text;
+    free(text);
+    return NULL;
 }
 
 bool settings_restore(const struct settings *table, const char *text, void *target, size_t *line)
@@ -150,9 +151,8 @@ bool settings_restore(const struct settings *table, const char *text, void *targ
         if (r == table->n || strncmp(text + key, " =", 2) != 0)
             return false;
         key += text[key + 2] == ' ' ? 3 : 2;
-        char *value = strndup(text + key, length - key);
-        bool ok =
-            value && (!*value || settings_set_text(NULL, &table->rows[r], 0, "", value, target));
+        char *value = cli_needed(strndup(text + key, length - key));
+        bool ok = !*value || settings_set_text(NULL, &table->rows[r], 0, "", value, target);
         free(value);
         if (!ok)
             return false;
@@ -226,7 +226,7 @@ void settings_template(const struct settings *table, const void *target, FILE *o
         fprintf(out, "%s# ", indent);
         print_meaning(row, NULL, out);
         fprintf(out, "\n%s%s: ", indent, dot ? dot + 1 : row->key);
-        if (value && (*value || row->n_most))
+        if (*value || row->n_most)
             print_yaml(row, value, out);
         fputc('\n', out);
         free(value);
@@ -240,9 +240,7 @@ static void print_help_row(const struct setting *row, const void *target, bool k
         [SETTING_CHOICE] = "NAME",     [SETTING_TEXT] = "TEXT", [SETTING_FILE] = "FILE",
         [SETTING_NUMBERS] = "X,Y,...", [SETTING_ROWS] = ""};
     char name[80], meaning[800];
-    FILE *text = fmemopen(meaning, sizeof meaning, "w");
-    if (!text)
-        return;
+    FILE *text = cli_needed(fmemopen(meaning, sizeof meaning, "w"));
     const char *kind = names[row->type] ? names[row->type] : "";
     print_meaning(row, target, text);
     fclose(text);

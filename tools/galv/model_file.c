@@ -113,30 +113,53 @@ static bool write_all(hid_t h5, const struct model_file *file)
     return ok;
 }
 
-/* The library writes to the name of the temporary file; committing flushes, renames and syncs it.
+/* The file as bytes, made in memory: HDF5 has no way back from a disk that is full. NULL: not made.
  */
+static void *file_image(const struct model_file *file, size_t *size)
+{
+    enum { STEP = 1 << 20 };
+    void *image = NULL;
+    hid_t how = H5Pcreate(H5P_FILE_ACCESS), h5 = -1;
+    if (how >= 0 && H5Pset_fapl_core(how, STEP, false) >= 0)
+        h5 = H5Fcreate("model", H5F_ACC_TRUNC, H5P_DEFAULT, how);
+    ssize_t n = -1;
+    if (h5 >= 0 && write_all(h5, file) && H5Fflush(h5, H5F_SCOPE_LOCAL) >= 0)
+        n = H5Fget_file_image(h5, NULL, 0);
+    if (n > 0) {
+        *size = (size_t)n;
+        image = cli_needed(malloc(*size));
+        if (H5Fget_file_image(h5, image, *size) != n) {
+            free(image);
+            image = NULL;
+        }
+    }
+    if (h5 >= 0)
+        H5Fclose(h5);
+    if (how >= 0)
+        H5Pclose(how);
+    return image;
+}
+
 bool model_file_write(const char *path, const struct model_file *file)
 {
     struct cli_file out;
+    size_t size = 0;
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    void *image = file_image(file, &size);
+    if (!image)
+        return cli_refuse("%s: HDF5 cannot make the file: is memory short?", path);
     if (!cli_file_open(&out, path)) {
-        cli_fail("%s: cannot be written: %s", path, strerror(errno));
-        return false;
+        free(image);
+        return cli_refuse("%s: cannot be written: %s", path, strerror(errno));
     }
-    hid_t h5 = H5Fcreate(out.temporary, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-    bool ok = h5 >= 0 && write_all(h5, file);
-    if (h5 >= 0)
-        ok = H5Fclose(h5) >= 0 && ok;
-    if (!ok) {
+    bool written = fwrite(image, 1, size, out.stream) == size;
+    int reason = errno;
+    free(image);
+    if (!written) {
         cli_file_abandon(&out);
-        cli_fail("%s: cannot be written as HDF5", path);
-        return false;
+        return cli_refuse("%s: cannot be written: %s", path, strerror(reason));
     }
-    if (!cli_file_commit(&out)) {
-        cli_fail("%s: cannot be written: %s", path, strerror(errno));
-        return false;
-    }
-    return true;
+    return cli_file_commit(&out) || cli_refuse("%s: cannot be written: %s", path, strerror(errno));
 }
 
 /* Where reading stopped, for the message. */

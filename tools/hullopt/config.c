@@ -397,30 +397,30 @@ static void check(struct settings_source *source, void *target)
 const struct settings CONFIG = {sizeof ROWS / sizeof *ROWS, ROWS, .check = check};
 
 /* For messages: the original of a command has no file. */
-static bool name_hull(struct config *config)
+static void name_hull(struct config *config)
 {
     if (!config->maker.command)
-        return true;
+        return;
     free(config->hull);
     free(config->shape);
-    config->hull = strdup("parameters.command");
-    config->shape = strdup("parameters.command");
-    return config->hull && config->shape;
+    config->hull = cli_needed(strdup("parameters.command"));
+    config->shape = cli_needed(strdup("parameters.command"));
 }
 
 bool config_read(const char *path, const struct config_overrides *overrides, struct config *config)
 {
-    *config = (struct config){.path = strdup(path)};
+    *config = (struct config){.path = cli_needed(strdup(path))};
     igabem_options_init(&config->solver);
     settings_start(&CONFIG, config);
-    bool ok = config->path && settings_read(path, &CONFIG, config);
+    bool ok = settings_read(path, &CONFIG, config);
     if (overrides && overrides->initial >= 0)
         config->initial = (size_t)overrides->initial;
     if (overrides && overrides->iterations >= 0)
         config->iterations = (size_t)overrides->iterations;
     ok = ok && ((config->text = settings_text(&CONFIG, config)) != NULL ||
                 cli_refuse("%s: an input file cannot be read", path));
-    ok = ok && name_hull(config);
+    if (ok)
+        name_hull(config);
     if (!ok)
         config_free(config);
     return ok;
@@ -429,11 +429,13 @@ bool config_read(const char *path, const struct config_overrides *overrides, str
 bool config_restore(const char *text, struct config *config)
 {
     size_t line;
-    *config = (struct config){.text = strdup(text)};
+    *config = (struct config){.text = cli_needed(strdup(text))};
     igabem_options_init(&config->solver);
     settings_start(&CONFIG, config);
-    bool ok = config->text && settings_restore(&CONFIG, text, config, &line) && name_hull(config);
-    if (!ok)
+    bool ok = settings_restore(&CONFIG, text, config, &line);
+    if (ok)
+        name_hull(config);
+    else
         config_free(config);
     return ok;
 }

@@ -1,4 +1,5 @@
 /* Axes with round ticks, and curves on them. */
+#include "cli.h"
 #include "plot/plot.h"
 
 #include <math.h>
@@ -33,9 +34,9 @@ static int compare(const void *a, const void *b)
 
 double plot_percentile(size_t n, const double *values, bool sizes, double share)
 {
-    double *sorted = malloc((n + 1) * sizeof *sorted), found = 0;
+    double *sorted = cli_needed(malloc((n + 1) * sizeof *sorted)), found = 0;
     size_t known = 0;
-    for (size_t i = 0; sorted && i < n; i++)
+    for (size_t i = 0; i < n; i++)
         if (isfinite(values[i]))
             sorted[known++] = sizes ? fabs(values[i]) : values[i];
     if (known) {

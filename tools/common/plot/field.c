@@ -1,4 +1,5 @@
 /* Colours of values: maps, bars, rasters, cells and lines of equal value. */
+#include "cli.h"
 #include "plot/plot.h"
 
 #include <cairo.h>
@@ -74,11 +75,10 @@ static void write_image(cairo_surface_t *image, FILE *out)
 {
     char *png = NULL;
     size_t n = 0;
-    FILE *memory = open_memstream(&png, &n);
-    if (!memory)
-        return;
-    cairo_surface_write_to_png_stream(image, write_bytes, memory);
-    fclose(memory);
+    FILE *memory = cli_needed(open_memstream(&png, &n));
+    bool whole = !cairo_surface_write_to_png_stream(image, write_bytes, memory);
+    whole = fclose(memory) == 0 && whole;
+    cli_needed(whole ? png : NULL);
     gchar *text = g_base64_encode((const guchar *)png, n);
     fputs(text, out);
     g_free(text);

@@ -1,4 +1,5 @@
 /* Hulls in perspective of an eye far away, painted from behind to the front. */
+#include "cli.h"
 #include "plot/ship.h"
 
 #include <math.h>
@@ -150,9 +151,7 @@ void plot_hull_view(struct plot *plot, double left, double top, double width, do
 {
     double bar = view->values ? 84 : 0;
     struct camera camera = aim(left, top, width - bar, height, view);
-    struct face *faces = malloc(view->rows * view->columns * sizeof *faces);
-    if (!faces)
-        return;
+    struct face *faces = cli_needed(malloc(view->rows * view->columns * sizeof *faces));
     paint_side(plot, &camera, view, -1, 2, faces);
     paint_side(plot, &camera, view, 1, 1, faces);
     paint_waterline(plot, &camera, view);
@@ -165,8 +164,8 @@ void plot_mode_view(struct plot *plot, double left, double top, double width, do
                     const struct plot_mode *mode)
 {
     size_t n = mode->rows * mode->columns;
-    double *size = malloc(n * sizeof *size), most = 0, spread = sqrt(mode->eigenvalue);
-    for (size_t k = 0; size && k < n; k++) {
+    double *size = cli_needed(malloc(n * sizeof *size)), most = 0, spread = sqrt(mode->eigenvalue);
+    for (size_t k = 0; k < n; k++) {
         size[k] = spread * sqrt(dot(mode->vector + 3 * k, mode->vector + 3 * k));
         most = fmax(most, size[k]);
     }
@@ -178,7 +177,6 @@ void plot_mode_view(struct plot *plot, double left, double top, double width, do
     plot_settle(&view.scale.axis);
     plot_text(plot, left, top + 14, 13, PLOT_START, PLOT_INK, "Mode %zu: %.1f %% of the variance",
               mode->number, 100 * mode->eigenvalue / mode->trace);
-    if (size)
-        plot_hull_view(plot, left, top + 24, width, height - 24, &view);
+    plot_hull_view(plot, left, top + 24, width, height - 24, &view);
     free(size);
 }

@@ -35,8 +35,8 @@ static void fill_parameters(const nurbs_surface *surface, int d, size_t n, doubl
 static bool measure(struct plan *plan)
 {
     enum { U = 201, V = 101 };
-    double u[U], v[V], *p = malloc(sizeof(double) * 3 * U * V);
-    nurbs_status status = p ? NURBS_OK : NURBS_ERROR_MEMORY;
+    double u[U], v[V], *p = cli_needed(malloc(sizeof(double) * 3 * U * V));
+    nurbs_status status = NURBS_OK;
     for (size_t k = 0; k < 3; k++) {
         plan->low[k] = INFINITY;
         plan->high[k] = -INFINITY;
@@ -52,7 +52,7 @@ static bool measure(struct plan *plan)
             }
         }
     free(p);
-    return !status || cli_refuse("%s", p ? nurbs_last_error() : "out of memory");
+    return !status || cli_refuse("%s", nurbs_last_error());
 }
 
 /* Goes through the points where coordinate `axis` of the hull is `value`; first: of a line. */

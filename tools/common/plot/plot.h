@@ -33,15 +33,16 @@ struct plot {
     size_t n_boxes, room, clips;
 };
 
-/* The title is for screen readers and for the data of a PDF. Refuses when memory is short. */
+/* The title is for screen readers and for the data of a PDF. A sheet that lacks memory ends the
+ * command. */
 bool plot_open(struct plot *plot, double width, double height, const char *title);
 void plot_free(struct plot *plot);
 /* Whether a name ends in .svg, .png or .pdf; refuses another with the name of the option. */
 bool plot_is_picture(const char *path);
 bool plot_check_path(const char *option, const char *path);
-/* Write the sheet and free it: by extension, or as an element of a page. False after a sentence. */
+/* Write the sheet and free it: by extension, false after a sentence; or as an element of a page. */
 bool plot_save(struct plot *plot, const char *path);
-bool plot_embed(struct plot *plot, FILE *page);
+void plot_embed(struct plot *plot, FILE *page);
 
 /* &, <, > and quotes replaced, other control characters dropped. */
 void plot_escape(FILE *out, const char *text);
@@ -83,7 +84,7 @@ struct plot_axis {
  * high = -INFINITY. */
 void plot_include(struct plot_axis *axis, size_t n, const double *values);
 /* The value that `share` of the finite values do not exceed, of |values| if sizes; 0 if there are
- * none or memory is short. */
+ * none. */
 double plot_percentile(size_t n, const double *values, bool sizes, double share);
 /* Makes any axis drawable: finite, ordered, of some length. nice: and moves its ends to ticks. */
 void plot_settle(struct plot_axis *axis);

@@ -49,21 +49,19 @@ static void write_svg(const struct plot *plot, FILE *out, bool file)
     fputs("</svg>\n", out);
 }
 
-static bool close_sheet(struct plot *plot)
+static void close_sheet(struct plot *plot)
 {
-    bool good = plot->out && !ferror(plot->out);
-    good = plot->out && fclose(plot->out) == 0 && good;
+    bool whole = !ferror(plot->out);
+    whole = fclose(plot->out) == 0 && whole;
     plot->out = NULL;
-    return good || cli_refuse("out of memory");
+    cli_needed(whole ? plot->body : NULL);
 }
 
-bool plot_embed(struct plot *plot, FILE *page)
+void plot_embed(struct plot *plot, FILE *page)
 {
-    bool good = close_sheet(plot);
-    if (good)
-        write_svg(plot, page, false);
+    close_sheet(plot);
+    write_svg(plot, page, false);
     plot_free(plot);
-    return good;
 }
 
 static cairo_status_t write_bytes(void *stream, const unsigned char *data, unsigned n)
@@ -108,16 +106,16 @@ static bool write_picture(const struct plot *plot, const char *path, FILE *strea
 {
     if (!strcasecmp(extension(path), ".svg")) {
         write_svg(plot, stream, true);
-        return !ferror(stream);
+        return true;
     }
     char *svg = NULL;
     size_t n = 0;
-    FILE *memory = open_memstream(&svg, &n);
-    if (!memory)
-        return false;
+    FILE *memory = cli_needed(open_memstream(&svg, &n));
     write_svg(plot, memory, true);
-    bool good = fclose(memory) == 0;
-    good = good && write_drawn(plot, svg, n, !strcasecmp(extension(path), ".png"), stream);
+    bool whole = !ferror(memory);
+    whole = fclose(memory) == 0 && whole;
+    cli_needed(whole ? svg : NULL);
+    bool good = write_drawn(plot, svg, n, !strcasecmp(extension(path), ".png"), stream);
     free(svg);
     return good;
 }
@@ -125,13 +123,14 @@ static bool write_picture(const struct plot *plot, const char *path, FILE *strea
 bool plot_save(struct plot *plot, const char *path)
 {
     struct cli_file file;
-    bool good = close_sheet(plot);
-    if (good && !cli_file_open(&file, path))
+    bool good = true;
+    close_sheet(plot);
+    if (!cli_file_open(&file, path))
         good = cli_refuse("%s: cannot be written: %s", path, strerror(errno));
-    else if (good && !write_picture(plot, path, file.stream)) {
+    else if (!write_picture(plot, path, file.stream) && !ferror(file.stream)) {
         cli_file_abandon(&file);
-        good = cli_refuse("%s: the picture cannot be drawn or written", path);
-    } else if (good && !cli_file_commit(&file))
+        good = cli_refuse("%s: the picture cannot be drawn", path);
+    } else if (!cli_file_commit(&file))
         good = cli_refuse("%s: cannot be written: %s", path, strerror(errno));
     plot_free(plot);
     return good;

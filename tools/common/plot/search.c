@@ -1,4 +1,5 @@
 /* History of a search, latent spaces. */
+#include "cli.h"
 #include "plot/ship.h"
 
 #include <math.h>
@@ -11,11 +12,10 @@ static struct plot_axis value_axis(const struct plot_history *h)
     static const double usual = 0.95, room = 0.5;
     struct plot_axis axis = {
         .low = INFINITY, .high = -INFINITY, .unit = h->unit, .label = h->label};
-    double *values = malloc((h->n + 1) * sizeof *values), zero = 0;
-    for (size_t i = 0; values && i < h->n; i++)
+    double *values = cli_needed(malloc((h->n + 1) * sizeof *values)), zero = 0;
+    for (size_t i = 0; i < h->n; i++)
         values[i] = h->trials[i].failed ? NAN : h->trials[i].value;
-    if (values)
-        plot_include(&axis, h->n, values);
+    plot_include(&axis, h->n, values);
     if (axis.low <= axis.high) {
         double high = plot_percentile(h->n, values, false, usual);
         axis.high = fmin(axis.high, high + room * (high - axis.low));
@@ -113,7 +113,7 @@ static size_t shown(const struct plot_latent *l)
 static void draw_chart(struct plot *plot, struct plot_frame *f, const struct plot_latent *l,
                        size_t first, size_t n, const double *y, const char *unit)
 {
-    double *x = malloc((n + 1) * sizeof *x), kept = y[l->modes - first];
+    double *x = cli_needed(malloc((n + 1) * sizeof *x)), kept = y[l->modes - first];
     f->x = (struct plot_axis){.high = (double)(n - 1 + first), .whole = true, .label = "modes"};
     plot_axes(plot, f);
     if (l->wanted > 0 && first == 0)
@@ -122,11 +122,10 @@ static void draw_chart(struct plot *plot, struct plot_frame *f, const struct plo
     double at = plot_x(f, (double)l->modes);
     plot_line(plot, at, f->top, at, f->top + f->height,
               (struct plot_pen){PLOT_OPTIMUM, 1.2, "4 3"});
-    for (size_t k = 0; x && k < n; k++)
+    for (size_t k = 0; k < n; k++)
         x[k] = (double)(first + k);
-    if (x)
-        plot_curve(plot, f, n, x, y, (struct plot_pen){PLOT_BLUE, 1.8, NULL});
-    for (size_t k = 0; x && k < n; k++)
+    plot_curve(plot, f, n, x, y, (struct plot_pen){PLOT_BLUE, 1.8, NULL});
+    for (size_t k = 0; k < n; k++)
         plot_mark(plot, plot_x(f, x[k]), plot_y(f, y[k]), PLOT_DOT,
                   k + first == l->modes ? 4.5 : 2.4,
                   k + first == l->modes ? PLOT_OPTIMUM : PLOT_BLUE, NULL);
@@ -142,13 +141,13 @@ void plot_variance(struct plot *plot, double left, double top, double width, dou
                    const struct plot_latent *l)
 {
     size_t n = shown(l);
-    double *share = calloc(n + 1, sizeof *share);
+    double *share = cli_needed(calloc(n + 1, sizeof *share));
     struct plot_frame f = {
         .left = left + 64, .top = top, .width = width - 74, .height = height - 44};
     f.y = (struct plot_axis){.high = 100, .label = "retained variance, %"};
-    for (size_t k = 1; share && k <= n; k++)
+    for (size_t k = 1; k <= n; k++)
         share[k] = share[k - 1] + 100 * l->eigenvalues[k - 1] / l->trace;
-    if (share && l->modes <= n)
+    if (l->modes <= n)
         draw_chart(plot, &f, l, 0, n + 1, share, " %");
     free(share);
 }
@@ -159,18 +158,17 @@ void plot_error(struct plot *plot, double left, double top, double width, double
     /* Rounding of the last eigenvalues is not an error of the method. */
     static const double rounding = 1e-9;
     size_t n = shown(l);
-    double *mse = malloc((n + 1) * sizeof *mse);
+    double *mse = cli_needed(malloc((n + 1) * sizeof *mse));
     struct plot_frame f = {
         .left = left + 64, .top = top, .width = width - 74, .height = height - 44};
     f.y = (struct plot_axis){
         .low = INFINITY, .high = -INFINITY, .log = true, .label = "mean square error, m²"};
-    for (size_t k = 0; mse && k < n; k++)
+    for (size_t k = 0; k < n; k++)
         mse[k] = l->mse[k] > rounding * l->trace ? l->mse[k] : NAN;
-    if (mse)
-        plot_include(&f.y, n, mse);
+    plot_include(&f.y, n, mse);
     plot_include(&f.y, 1, &l->trace);
     plot_nice(&f.y, 5);
-    if (mse && l->modes >= 1 && l->modes <= n)
+    if (l->modes >= 1 && l->modes <= n)
         draw_chart(plot, &f, l, 1, n, mse, " m²");
     free(mse);
 }

@@ -11,8 +11,8 @@ bool plot_open(struct plot *plot, double width, double height, const char *title
 {
     *plot = (struct plot){.width = ceil(width), .height = ceil(height), .scale = 2};
     snprintf(plot->title, sizeof plot->title, "%s", title);
-    plot->out = open_memstream(&plot->body, &plot->size);
-    return plot->out || cli_refuse("out of memory");
+    plot->out = cli_needed(open_memstream(&plot->body, &plot->size));
+    return true;
 }
 
 void plot_free(struct plot *plot)
@@ -75,10 +75,7 @@ static void keep_box(struct plot *plot, struct plot_box box)
 {
     if (plot->n_boxes == plot->room) {
         size_t room = plot->room ? 2 * plot->room : 64;
-        struct plot_box *more = realloc(plot->boxes, room * sizeof *more);
-        if (!more)
-            return;
-        plot->boxes = more;
+        plot->boxes = cli_needed(realloc(plot->boxes, room * sizeof *plot->boxes));
         plot->room = room;
     }
     plot->boxes[plot->n_boxes++] = box;

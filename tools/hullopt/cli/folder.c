@@ -12,9 +12,7 @@
 char *folder_join(const char *path, const char *name)
 {
     size_t length = strlen(path), room = length + strlen(name) + 2;
-    char *joined = malloc(room);
-    if (!joined)
-        return NULL;
+    char *joined = cli_needed(malloc(room));
     memcpy(joined, path, length);
     if (length && path[length - 1] != '/')
         joined[length++] = '/';

@@ -3,6 +3,7 @@
 #include "cli.h"
 
 #include <errno.h>
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -57,18 +58,25 @@ void record_remove(const char *path)
             unlink(name);
 }
 
-/* A member that is kept as an attribute of the same name. */
+/* A member that is kept as an attribute of the same name; one that came later may be missing. */
 struct member {
     const char *name;
     enum { MEMBER_NUMBER, MEMBER_COUNT, MEMBER_INTEGER, MEMBER_TEXT } type;
     size_t offset, size;
+    bool later;
 };
 
-#define MEMBER(type, what, member)                                                                 \
+#define MEMBER(owner, what, member)                                                                \
     {                                                                                              \
-#member, what, offsetof(struct type, member), sizeof((struct type *)0)->member             \
+        .name = #member, .type = what, .offset = offsetof(struct owner, member),                   \
+        .size = sizeof((struct owner *)0)->member                                                  \
     }
 #define FIGURE(member) MEMBER(evaluation, MEMBER_NUMBER, member)
+#define LATER(member)                                                                              \
+    {                                                                                              \
+        .name = #member, .type = MEMBER_NUMBER, .offset = offsetof(struct evaluation, member),     \
+        .later = true                                                                              \
+    }
 #define RESULT(member) MEMBER(verification, MEMBER_NUMBER, member)
 
 #define OPTION(member) MEMBER(igabem_options, MEMBER_NUMBER, member)
@@ -87,7 +95,7 @@ static const struct member EVALUATION[] = {
     FIGURE(wetted_area),
     FIGURE(bound),
     FIGURE(breadth),
-    FIGURE(outside),
+    LATER(outside),
     FIGURE(nu_s),
     FIGURE(propose_seconds),
     FIGURE(geometry_seconds),
@@ -145,29 +153,52 @@ static size_t pack(size_t n, const struct member *members, const void *from,
     return n;
 }
 
-static void unpack(size_t n, const struct member *members, size_t n_attributes,
-                   const bayesopt_attribute *attributes, void *to)
+static const bayesopt_attribute *find(size_t n, const bayesopt_attribute *attributes,
+                                      const char *name)
+{
+    for (size_t i = 0; i < n; i++)
+        if (strcmp(attributes[i].name, name) == 0)
+            return &attributes[i];
+    return NULL;
+}
+
+/* Stores an attribute as a member; false: it is no such value. */
+static bool store_member(const struct member *member, const bayesopt_attribute *a, void *at)
+{
+    bool whole = a->number == floor(a->number);
+    if ((member->type == MEMBER_TEXT) != (a->text != NULL))
+        return false;
+    switch (member->type) {
+    case MEMBER_NUMBER:
+        *(double *)at = a->number;
+        return !isinf(a->number);
+    case MEMBER_COUNT:
+        whole = whole && a->number >= 0 && a->number <= 0x1p53;
+        *(size_t *)at = whole ? (size_t)a->number : 0;
+        return whole;
+    case MEMBER_INTEGER:
+        whole = whole && a->number >= INT_MIN && a->number <= INT_MAX;
+        *(int *)at = whole ? (int)a->number : 0;
+        return whole;
+    case MEMBER_TEXT:
+        snprintf(at, member->size, "%s", a->text);
+        return true;
+    }
+    return false;
+}
+
+static bool unpack(size_t n, const struct member *members, size_t n_attributes,
+                   const bayesopt_attribute *attributes, void *to, const char *what)
 {
     for (size_t i = 0; i < n; i++) {
-        void *at = (char *)to + members[i].offset;
-        const char *name = members[i].name;
-        double number = bayesopt_attribute_number(n_attributes, attributes, name);
-        switch (members[i].type) {
-        case MEMBER_NUMBER:
-            *(double *)at = number;
-            break;
-        case MEMBER_COUNT:
-            *(size_t *)at = number >= 0 ? (size_t)number : 0;
-            break;
-        case MEMBER_INTEGER:
-            *(int *)at = isnan(number) ? 0 : (int)number;
-            break;
-        case MEMBER_TEXT:
-            snprintf(at, members[i].size, "%s",
-                     bayesopt_attribute_text(n_attributes, attributes, name));
-            break;
-        }
+        const bayesopt_attribute *a = find(n_attributes, attributes, members[i].name);
+        const bayesopt_attribute none = {.name = members[i].name, .number = NAN};
+        if (!a && !members[i].later)
+            return core_fail("%s: '%s' is missing", what, members[i].name);
+        if (!store_member(&members[i], a ? a : &none, (char *)to + members[i].offset))
+            return core_fail("%s: '%s' is damaged", what, members[i].name);
     }
+    return true;
 }
 
 size_t record_solver(const igabem_options *solver, bayesopt_attribute attributes[SOLVER_MOST])
@@ -188,12 +219,15 @@ static bool get_solver(const struct record *record, igabem_options *solver)
         return false;
     size_t n = bayesopt_table_row(table, 0, &row);
     const char *name = bayesopt_attribute_text(n, row, "formulation");
-    unpack(LENGTH(SOLVER_OPTIONS), SOLVER_OPTIONS, n, row, solver);
-    solver->line_term = strcmp(bayesopt_attribute_text(n, row, "line_term"), "true") == 0;
+    const char *line_term = bayesopt_attribute_text(n, row, "line_term");
+    bool ok = unpack(LENGTH(SOLVER_OPTIONS), SOLVER_OPTIONS, n, row, solver, "its solver");
+    solver->line_term = strcmp(line_term, "true") == 0;
+    ok = ok && (solver->line_term || strcmp(line_term, "false") == 0 ||
+                core_fail("its solver: 'line_term' is damaged"));
     igabem_formulation f = 0;
     while (igabem_formulation_info(f) && strcmp(igabem_formulation_name(f), name) != 0)
         f++;
-    bool ok = igabem_formulation_info(f) || core_fail("formulation '%s' is not known", name);
+    ok = ok && (igabem_formulation_info(f) || core_fail("formulation '%s' is not known", name));
     solver->formulation = f;
     bayesopt_table_free(table);
     return ok;
@@ -349,7 +383,8 @@ bool record_read(const char *path, struct record *record, struct origin *origin)
         return true;
     origin_free(origin);
     record_close(record);
-    return core_fail("%s: %s", path, core_sentence());
+    bool named = strncmp(core_sentence(), path, strlen(path)) == 0;
+    return named ? false : core_fail("%s: %s", path, core_sentence());
 }
 
 void origin_free(struct origin *origin)
@@ -389,7 +424,12 @@ bool record_seconds(const struct record *record, size_t *sessions, double *secon
     *seconds = 0;
     for (size_t i = 0; i < *sessions; i++) {
         size_t n = bayesopt_table_row(table, i, &row);
-        *seconds += bayesopt_attribute_number(n, row, "seconds");
+        const bayesopt_attribute *spent = find(n, row, "seconds");
+        if (!spent || !(spent->number >= 0)) {
+            bayesopt_table_free(table);
+            return core_fail("a session without its seconds");
+        }
+        *seconds += spent->number;
     }
     bayesopt_table_free(table);
     return true;
@@ -410,6 +450,24 @@ static size_t pack_list(const char *name, size_t n, const double *values, char (
         attributes[i] = (bayesopt_attribute){.name = names[i], .number = values[i]};
     }
     return n;
+}
+
+/* How many figures of a numbered name a design has, which are numbers and have no gap. */
+static bool count_list(const char *name, const bayesopt_point *point, size_t *n)
+{
+    char text[NAME_SIZE];
+    size_t length = strlen(name), all = 0;
+    bool ok = true;
+    for (size_t i = 0; i < point->n_attributes; i++) {
+        const bayesopt_attribute *a = &point->attributes[i];
+        bool ours = strncmp(a->name, name, length) == 0 && a->name[length] == '_';
+        ok = ok && !(ours && (a->text || isinf(a->number)));
+        all += ours;
+    }
+    for (*n = 0; number_name(name, *n, text), find(point->n_attributes, point->attributes, text);)
+        ++*n;
+    return (ok && *n == all) || core_fail("design %llu: a figure '%s_...' is damaged",
+                                          (unsigned long long)point->id, name);
 }
 
 static size_t unpack_list(const char *name, size_t most, const bayesopt_point *point,
@@ -461,8 +519,9 @@ static void unpack_particulars(const bayesopt_point *point, double value[PARTICU
 }
 
 /* What was not asked for is the parent, which comes first, or a design of a descent. */
-static void read_evaluation(const bayesopt_point *point, bool first, struct evaluation *e)
+static bool read_evaluation(const bayesopt_point *point, bool first, struct evaluation *e)
 {
+    char what[40];
     const char *phase = first ? "parent"
                         : point->phase == BAYESOPT_PHASE_EXTERNAL
                             ? "descent"
@@ -472,10 +531,19 @@ static void read_evaluation(const bayesopt_point *point, bool first, struct eval
     e->objective = point->f;
     if (e->failed)
         snprintf(e->reason, sizeof e->reason, "%s", point->note);
-    unpack(LENGTH(EVALUATION), EVALUATION, point->n_attributes, point->attributes, e);
+    snprintf(what, sizeof what, "design %llu", (unsigned long long)e->id);
+    if (!unpack(LENGTH(EVALUATION), EVALUATION, point->n_attributes, point->attributes, e, what))
+        return false;
+    size_t n;
+    if (!count_list(MODEL, point, &n) || !count_list(SPEED, point, &n) ||
+        !count_list(PARTICULAR, point, &n))
+        return false;
+    if (!e->failed && !isfinite(e->cw))
+        return core_fail("%s: 'cw' is damaged", what);
     e->models = unpack_list(MODEL, CONFIG_MODELS_MOST, point, e->cw_model);
     e->speeds = unpack_list(SPEED, SPEEDS_MOST, point, e->cw_speed);
     unpack_particulars(point, e->particular);
+    return true;
 }
 
 bool record_evaluations(const struct record *record, struct evaluation **list, size_t *n)
@@ -484,15 +552,19 @@ bool record_evaluations(const struct record *record, struct evaluation **list, s
     bayesopt_point point;
     *n = 0;
     *list = calloc(all + 1, sizeof **list);
-    if (!*list)
-        return core_no_memory();
-    for (size_t i = 0; i < all; i++) {
-        if (!done(bayesopt_get(record->bo, i, &point)))
-            return false;
-        if (point.state != BAYESOPT_STATE_PENDING)
-            read_evaluation(&point, i == 0, &(*list)[*n]), (*n)++;
+    bool ok = *list || core_no_memory();
+    for (size_t i = 0; i < all && ok; i++) {
+        ok = done(bayesopt_get(record->bo, i, &point));
+        if (!ok || point.state == BAYESOPT_STATE_PENDING)
+            continue;
+        ok = read_evaluation(&point, i == 0, &(*list)[*n]);
+        *n += ok;
     }
-    return true;
+    if (!ok) {
+        free(*list);
+        *list = NULL;
+    }
+    return ok;
 }
 
 bool record_put_verification(struct record *record, size_t position, const struct verification *row)
@@ -507,7 +579,8 @@ bool record_put_verification(struct record *record, size_t position, const struc
 static bool read_row(size_t n, const bayesopt_attribute *attributes, struct verification *row)
 {
     const char *group = bayesopt_attribute_text(n, attributes, "group");
-    unpack(LENGTH(ROW), ROW, n, attributes, row);
+    if (!unpack(LENGTH(ROW), ROW, n, attributes, row, "its verification"))
+        return false;
     for (row->group = 0; row->group < GROUPS; row->group++)
         if (strcmp(group, verification_group_name(row->group)) == 0)
             return true;

@@ -32,10 +32,7 @@ static bool write_report(const struct results *results, const char *path)
     struct cli_file file;
     if (!cli_file_open(&file, path))
         return cli_refuse("%s: cannot be written: %s", path, strerror(errno));
-    if (!report_write(file.stream, results)) {
-        cli_file_abandon(&file);
-        return cli_refuse("%s: cannot be written", path);
-    }
+    report_write(file.stream, results);
     return cli_file_commit(&file) || cli_refuse("%s: cannot be written: %s", path, strerror(errno));
 }
 
@@ -126,12 +123,11 @@ static bool write_files(const struct results *r, const char *folder, const json_
     static const char *const names[] = {"summary.json", "best.json",        "best.igs",
                                         "best.step",    "best_wetted.json", "report.html"};
     enum { FILES = sizeof names / sizeof *names };
-    char *path[FILES] = {0};
-    bool ok = true;
+    char *path[FILES];
     for (size_t i = 0; i < FILES; i++)
-        ok = (path[i] = folder_join(folder, names[i])) != NULL && ok;
-    ok = (ok || cli_refuse("out of memory")) && write_hulls(r, path + 1) &&
-         write_report(r, path[5]) && write_summary(summary, path[0]);
+        path[i] = folder_join(folder, names[i]);
+    bool ok =
+        write_hulls(r, path + 1) && write_report(r, path[5]) && write_summary(summary, path[0]);
     for (size_t i = 0; i < FILES; i++)
         free(path[i]);
     return ok;

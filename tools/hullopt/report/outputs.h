@@ -15,6 +15,6 @@ bool outputs_write(const struct results *results, const char *folder, bool json)
 json_t *summary_make(const struct results *results);
 
 /* The whole page. */
-bool report_write(FILE *out, const struct results *results);
+void report_write(FILE *out, const struct results *results);
 
 #endif

@@ -86,7 +86,7 @@ static void wave_section(FILE *out, const struct results *r)
     fputs("</section>\n", out);
 }
 
-bool report_write(FILE *out, const struct results *r)
+void report_write(FILE *out, const struct results *r)
 {
     report_head(out, r);
     history_section(out, r);
@@ -97,5 +97,4 @@ bool report_write(FILE *out, const struct results *r)
     latent_section(out, r);
     report_settings(out, r);
     fputs("</main></body></html>\n", out);
-    return !ferror(out);
 }

@@ -1,5 +1,6 @@
 #include "report/pictures.h"
 
+#include "cli.h"
 #include "constants.h"
 #include "core/constraints.h"
 #include "plot/ship.h"
@@ -15,12 +16,21 @@ static const struct plot_pen pens[2] = {{PLOT_ORIGINAL, 1.1, "5 3"}, {PLOT_OPTIM
 static const struct plot_legend legend[2] = {{"original", {PLOT_ORIGINAL, 2, "5 3"}, PLOT_LINE},
                                              {"optimum", {PLOT_OPTIMUM, 2, NULL}, PLOT_LINE}};
 
+/* Whether what a picture needs is there: not so where the geometry has no such thing. */
+static bool drawable(int status)
+{
+    static const int no_memory = NURBS_ERROR_MEMORY; /* the same number in all libraries */
+    if (status == no_memory)
+        cli_needed(NULL);
+    return status == 0;
+}
+
 void draw_history(FILE *out, const struct results *r)
 {
     enum { HEIGHT = 400 };
     struct plot plot;
-    struct plot_trial *trials = calloc(r->n + 1, sizeof *trials);
-    for (size_t i = 0; trials && i < r->n; i++) {
+    struct plot_trial *trials = cli_needed(calloc(r->n + 1, sizeof *trials));
+    for (size_t i = 0; i < r->n; i++) {
         const struct evaluation *e = &r->evaluations[i];
         struct plot_trial *t = &trials[i];
         t->number = (double)i;
@@ -35,7 +45,7 @@ void draw_history(FILE *out, const struct results *r)
                      (unsigned long long)e->id, e->cw, 100 * (e->volume_ratio - 1));
     }
     const struct plot_history history = {r->n, trials, r->baseline->cw, 1000, "10³ C_{w}"};
-    if (trials && plot_open(&plot, FULL, HEIGHT, "History of the search")) {
+    if (plot_open(&plot, FULL, HEIGHT, "History of the search")) {
         plot_history(&plot, 0, 0, FULL, HEIGHT, &history);
         plot_embed(&plot, out);
     }
@@ -54,7 +64,7 @@ void draw_lines(FILE *out, const struct results *r)
     const struct plot_hull hulls[2] = {hull_of(r, 0, &surface[0]), hull_of(r, 1, &surface[1])};
     struct plot_lines lines = {.stations = 20, .waterlines = 8, .buttocks = 3};
     struct plot plot;
-    if (!nurbs_hull_perpendiculars(results_hull(r, 0), lines.perpendicular) &&
+    if (drawable(nurbs_hull_perpendiculars(results_hull(r, 0), lines.perpendicular)) &&
         plot_lines_plan(&plot, FULL, &lines, 2, hulls))
         plot_embed(&plot, out);
 }
@@ -65,7 +75,7 @@ void draw_section_areas(FILE *out, const struct results *r)
     struct plot_frame f = {.left = 62, .top = 34, .width = HALF - 76, .height = AREAS - 80};
     double end[2], station[N], x[N], area[2][N];
     struct plot plot;
-    if (nurbs_hull_perpendiculars(results_hull(r, 0), end))
+    if (!drawable(nurbs_hull_perpendiculars(results_hull(r, 0), end)))
         return;
     f.x = (struct plot_axis){.low = -1, .high = 21, .whole = true, .label = "station"};
     f.y = (struct plot_axis){.low = 0, .high = -INFINITY, .label = "section area, m²"};
@@ -74,7 +84,7 @@ void draw_section_areas(FILE *out, const struct results *r)
         x[i] = end[0] + (end[1] - end[0]) * station[i] / 20;
     }
     for (int k = 0; k < 2; k++) {
-        if (nurbs_hull_section_areas(results_hull(r, k), N, x, area[k]))
+        if (!drawable(nurbs_hull_section_areas(results_hull(r, k), N, x, area[k])))
             return;
         plot_include(&f.y, N, area[k]);
     }
@@ -90,12 +100,12 @@ void draw_section_areas(FILE *out, const struct results *r)
 
 static const double STEEP = 20; /* degrees */
 /* Angles of the pieces of a waterline to the centre plane, at their middles, those of blunt ends
- * cut off. false: no memory. */
+ * cut off. false: it has none. */
 static bool waterline_angles(const nurbs_hull *hull, size_t *n, double **x, double **angle)
 {
     double *edge = NULL;
-    bool ok = nurbs_hull_waterline(hull, n, &edge) == NURBS_OK && *n > 2;
-    *x = ok ? malloc(2 * *n * sizeof **x) : NULL;
+    bool ok = drawable(nurbs_hull_waterline(hull, n, &edge)) && *n > 2;
+    *x = ok ? cli_needed(malloc(2 * *n * sizeof **x)) : NULL;
     if (*x) {
         *n -= 1;
         *angle = *x + *n;
@@ -160,11 +170,12 @@ void draw_optimum(FILE *out, const struct results *r)
     const galv_model *model = r->problem->model;
     const double *found = r->problem->found; /* a command's hull is no sum of modes */
     size_t points = galv_model_points(model), n = 3 * points;
-    double *moved = malloc(n * sizeof *moved), *change = malloc(points * sizeof *change), most = 0;
+    double *moved = cli_needed(malloc(n * sizeof *moved)), most = 0;
+    double *change = cli_needed(malloc(points * sizeof *change));
     const double *parent = nurbs_grid_points(r->problem->grid);
-    if (moved && found)
+    if (found)
         memcpy(moved, found, n * sizeof *moved);
-    if (moved && change && (found || galv_displace(model, r->best->u, moved) == GALV_OK)) {
+    if (found || drawable(galv_displace(model, r->best->u, moved))) {
         for (size_t k = 0; k < points; k++) {
             double d[3], length = 0;
             for (size_t c = 0; c < 3; c++) {
@@ -244,7 +255,7 @@ static struct plot_waves waves_of(const struct results *r, int which)
     struct plot_waves waves = {legend[which].text, w->nx, w->ny, 0, w->x0, w->dx, w->y0, w->dy,
                                w->elevation,       NULL};
     /* without it the picture lacks the hull */
-    if (nurbs_hull_waterline(results_hull(r, which), &waves.n_edge, &waves.edge))
+    if (!drawable(nurbs_hull_waterline(results_hull(r, which), &waves.n_edge, &waves.edge)))
         waves.n_edge = 0;
     return waves;
 }
@@ -264,11 +275,11 @@ void draw_wave_cut(FILE *out, const struct results *r, double share)
     const struct plot_waves waves[2] = {waves_of(r, 0), waves_of(r, 1)};
     size_t n = waves->nx;
     struct plot_frame f = {.left = 66, .top = 34, .width = FULL - 66 - 96, .height = CUT - 80};
-    double *x = malloc(3 * n * sizeof *x);
+    double *x = cli_needed(malloc(3 * n * sizeof *x));
     struct plot plot;
     free(waves[0].edge);
     free(waves[1].edge);
-    if (!x || !plot_open(&plot, FULL, CUT, "Longitudinal wave cut")) {
+    if (!plot_open(&plot, FULL, CUT, "Longitudinal wave cut")) {
         free(x);
         return;
     }

@@ -1,5 +1,5 @@
-/* The pictures of the report, each written as one <svg>. A picture that lacks memory is left out.
- */
+/* The pictures of the report, each written as one <svg>. What
+ * cannot be drawn is left out; without memory the command ends. */
 #ifndef HULLOPT_PICTURES_H
 #define HULLOPT_PICTURES_H
 

@@ -1,3 +1,4 @@
+#include "cli.h"
 #include "core/constraints.h"
 #include "plot/plot.h"
 #include "report/particulars.h"
@@ -162,16 +163,16 @@ static void setting_rows(FILE *out, const char *line)
         size_t length = strcspn(line, "\n"), key = row->key ? strlen(row->key) : 0;
         if (!key || strncmp(line, row->key, key) != 0 || strncmp(line + key, " =", 2) != 0)
             continue;
-        char *value = strndup(line + key + 2, length - key - 2);
+        char *value = cli_needed(strndup(line + key + 2, length - key - 2));
         line += length + (line[length] == '\n');
-        if (value && !*value) {
+        if (!*value) {
             free(value);
             continue;
         }
         fputs("<tr title=\"", out);
         plot_escape(out, row->sentence);
         fprintf(out, "\"><td><code>%s</code></td><td>", row->key);
-        plot_escape(out, value ? value : "");
+        plot_escape(out, value);
         fputs("</td></tr>\n", out);
         free(value);
     }
