@@ -3,18 +3,18 @@
  * - FAULT_AT=k: malloc, calloc, realloc, posix_memalign, aligned_alloc and strdup are counted from
  *   the start of main(); the k-th answers as if memory had run out, those after it do their work
  *   again. 0 or unset: none.
+ * - FAULT_DISTINCT=1 counts only the first of those that the same twelve calls lead to.
  * - FAULT_TRACE=1 prints the calls that led to it on standard error.
  * - FAULT_COUNT=FILE receives the number of allocations when the program ends.
  *
  * Allocations by libraries that end the program when memory runs out (GLib and what draws with it,
  * libgomp), or that go on with what they did not get (HDF5 1.10), are let through: what happens
  * there is theirs. Needs glibc. */
-#include <dlfcn.h>
+#include "start.h"
+
 #include <errno.h>
 #include <execinfo.h>
-#include <fcntl.h>
 #include <link.h>
-#include <stdatomic.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -34,9 +34,27 @@ static struct {
     uintptr_t from, to;
 } let_through[MOST_RANGES];
 static size_t ranges;
-static atomic_bool armed;
-static atomic_ulong count;
-static unsigned long fault_at;
+static bool distinct;
+
+/* Whether the calls that lead here led here before; a table that fills up forgets none. */
+static bool seen(void)
+{
+    enum { DEPTH = 15, OWN = 3, SLOTS = 1 << 16 };
+    static atomic_ulong slots[SLOTS];
+    void *calls[DEPTH];
+    unsigned long hash = 14695981039346656037u; /* FNV-1a */
+    for (int n = backtrace(calls, DEPTH), k = OWN; k < n; k++)
+        hash = (hash ^ (uintptr_t)calls[k]) * 1099511628211u;
+    hash += hash == 0;
+    for (unsigned long k = hash >> 20, tries = 0; tries < SLOTS; k++, tries++) {
+        unsigned long there = 0;
+        if (atomic_compare_exchange_strong(&slots[k % SLOTS], &there, hash))
+            return false;
+        if (there == hash)
+            return true;
+    }
+    return false;
+}
 
 static bool fails(const void *caller)
 {
@@ -45,13 +63,11 @@ static bool fails(const void *caller)
     for (size_t k = 0; k < ranges; k++)
         if ((uintptr_t)caller >= let_through[k].from && (uintptr_t)caller < let_through[k].to)
             return false;
+    if (distinct && seen())
+        return false;
     if (atomic_fetch_add(&count, 1) + 1 != fault_at)
         return false;
-    if (getenv("FAULT_TRACE")) {
-        void *calls[40];
-        atomic_store(&armed, false);
-        backtrace_symbols_fd(calls, backtrace(calls, 40), STDERR_FILENO);
-    }
+    trace();
     errno = ENOMEM;
     return true;
 }
@@ -109,41 +125,9 @@ static int note_module(struct dl_phdr_info *info, size_t size, void *data)
     return 0;
 }
 
-static void write_count(void)
+static void prepare(void)
 {
-    atomic_store(&armed, false);
-    const char *path = getenv("FAULT_COUNT");
-    int file = path ? open(path, O_WRONLY | O_CREAT | O_TRUNC, 0644) : -1;
-    if (file < 0)
-        return;
-    char text[32];
-    int length = snprintf(text, sizeof text, "%lu\n", atomic_load(&count));
-    if (write(file, text, (size_t)length) != length)
-        _exit(99);
-    close(file);
-}
-
-typedef int main_function(int, char **, char **);
-static main_function *real_main;
-
-static int armed_main(int argc, char **argv, char **environment)
-{
-    const char *at = getenv("FAULT_AT");
-    fault_at = at ? strtoul(at, NULL, 10) : 0;
+    distinct = getenv("FAULT_DISTINCT");
     dl_iterate_phdr(note_module, NULL);
     unsetenv("LD_PRELOAD"); /* what the program starts is not under test */
-    atexit(write_count);
-    atomic_store(&armed, true);
-    return real_main(argc, argv, environment);
-}
-
-int __libc_start_main(main_function *main, int argc, char **argv, void (*init)(void),
-                      void (*fini)(void), void (*rtld_fini)(void), void *stack_end)
-{
-    typedef int start_function(main_function *, int, char **, void (*)(void), void (*)(void),
-                               void (*)(void), void *);
-    start_function *start;
-    *(void **)&start = dlsym(RTLD_NEXT, "__libc_start_main");
-    real_main = main;
-    return start(armed_main, argc, argv, init, fini, rtld_fini, stack_end);
 }
