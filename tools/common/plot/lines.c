@@ -22,6 +22,13 @@ struct plan {
 static const struct plot_pen grid_pen = {"#d5dbe1", 0.6, NULL}, level_pen = {PLOT_BLUE, 1.1, NULL},
                              base_pen = {PLOT_MUTED, 1, "8 3 2 3"};
 
+static bool refuse(nurbs_status status)
+{
+    if (status == NURBS_ERROR_MEMORY)
+        cli_needed(NULL);
+    return cli_refuse("%s", nurbs_last_error());
+}
+
 static void fill_parameters(const nurbs_surface *surface, int d, size_t n, double *out)
 {
     const double *knots = nurbs_surface_knots(surface, d);
@@ -52,7 +59,7 @@ static bool measure(struct plan *plan)
             }
         }
     free(p);
-    return !status || cli_refuse("%s", nurbs_last_error());
+    return !status || refuse(status);
 }
 
 /* Goes through the points where coordinate `axis` of the hull is `value`; first: of a line. */
@@ -63,8 +70,9 @@ static bool each_point(const struct plot_hull *hull, int axis, double value,
     for (size_t s = 0; s < hull->n; s++) {
         double normal[3] = {axis == 0, axis == 1, axis == 2};
         nurbs_contour contour;
-        if (nurbs_surface_contour(hull->surfaces[s], normal, value, 0, &contour) != NURBS_OK)
-            return cli_refuse("%s", nurbs_last_error());
+        nurbs_status status = nurbs_surface_contour(hull->surfaces[s], normal, value, 0, &contour);
+        if (status)
+            return refuse(status);
         for (size_t l = 0; l < contour.lines; l++)
             for (size_t i = contour.first[l]; i < contour.first[l + 1]; i++)
                 take(user_data, contour.points + 3 * i, i == contour.first[l]);
@@ -139,7 +147,7 @@ static bool put_edges(const struct plan *plan, const struct view *view,
             d == 0 ? nurbs_surface_eval_grid(surface, 0, 1, &value, SAMPLES + 1, t, points)
                    : nurbs_surface_eval_grid(surface, 0, SAMPLES + 1, t, 1, &value, points);
         if (status)
-            return cli_refuse("%s", nurbs_last_error());
+            return refuse(status);
         plot_path(plan->plot, pen, NULL);
         for (size_t i = 0; i <= SAMPLES; i++)
             take_stroke(&stroke, points + 3 * i, i == 0);

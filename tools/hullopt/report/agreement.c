@@ -1,5 +1,6 @@
 #include "report/agreement.h"
 
+#include "cli.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -53,9 +54,7 @@ bool agreement_of(const struct results *r, size_t speed, struct agreement *a)
     if (config->models == 0 || speed * a->models > r->baseline->speeds)
         return false;
     a->froude = speed > 0 ? config->verify_froude[speed - 1] : config->solver.froude;
-    double *ratios = malloc(a->models * r->n * sizeof *ratios);
-    if (!ratios)
-        return false;
+    double *ratios = cli_needed(malloc(a->models * r->n * sizeof *ratios));
     for (size_t k = 0; k < a->models; k++) {
         a->name[k] =
             igabem_formulation_name(k > 0 ? config->model[k - 1] : r->problem->solver.formulation);
