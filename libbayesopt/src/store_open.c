@@ -2,8 +2,10 @@
 #include "error.h"
 #include "store_internal.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* The one version of the schema, kept as entry 'format'. 1: version 0.1.0 of the library, without
  * texts, arrays and attributes; 2: without signs of life. */
@@ -156,6 +158,18 @@ static void disconnect(struct store *store)
     free(store);
 }
 
+/* SQLite says no more than that it cannot. */
+static bayesopt_status opening_error(const struct store *store)
+{
+    int code = store->db ? sqlite3_errcode(store->db) & 0xff : SQLITE_NOMEM;
+    if (code == SQLITE_NOMEM)
+        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "%s: out of memory", store->path);
+    if (code == SQLITE_CANTOPEN && access(store->path, F_OK) != 0)
+        return bayesopt_fail(BAYESOPT_ERROR_FILE, "%s: %s: %s", store->path,
+                             sqlite3_errmsg(store->db), strerror(errno));
+    return bayesopt_fail(BAYESOPT_ERROR_FILE, "%s: %s", store->path, sqlite3_errmsg(store->db));
+}
+
 static bayesopt_status connect(const char *path, int flags, struct store **out)
 {
     struct store *store = calloc(1, sizeof *store);
@@ -169,15 +183,14 @@ static bayesopt_status connect(const char *path, int flags, struct store **out)
     store->read_only = flags == SQLITE_OPEN_READONLY;
     bayesopt_status status = BAYESOPT_OK;
     if (sqlite3_open_v2(path, &store->db, flags, NULL) != SQLITE_OK)
-        status = bayesopt_fail(BAYESOPT_ERROR_FILE, "%s: %s", path,
-                               store->db ? sqlite3_errmsg(store->db) : "out of memory");
+        status = opening_error(store);
     /* Another session's ask holds the lock while it computes. */
     if (!status)
         sqlite3_busy_timeout(store->db, 600000);
-    if (!status)
-        status = store_execute(store, "PRAGMA synchronous = FULL");
-    if (!status)
-        status = store_execute(store, "PRAGMA temp_store = MEMORY");
+    /* The first of these reads the file. */
+    if (!status && sqlite3_exec(store->db, "PRAGMA synchronous = FULL; PRAGMA temp_store = MEMORY",
+                                NULL, NULL, NULL) != SQLITE_OK)
+        status = store_error(store, "opening the store");
     if (!status)
         status = check_intact(store);
     if (status) {

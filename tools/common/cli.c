@@ -134,7 +134,14 @@ int cli_dispatch(const char *name, const char *purpose, size_t n,
             cli_set_name(title);
             return commands[k].run(argc - 1, argv + 1);
         }
-    return cli_usage("unknown command '%s'", argv[1]);
+    char list[400] = "";
+    for (size_t k = 0, at = 0; k < n && at < sizeof list; k++)
+        at += (size_t)snprintf(list + at, sizeof list - at, "%s%s",
+                               k == 0      ? ""
+                               : k + 1 < n ? ", "
+                                           : " or ",
+                               commands[k].name);
+    return cli_usage("unknown command '%s', expected %s", argv[1], list);
 }
 
 int cli_printed(void)

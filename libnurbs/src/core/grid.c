@@ -114,6 +114,14 @@ static int is_header(const char *at)
     return *expected == '\0';
 }
 
+/* How much of a field is told. */
+static int shown(const char *at)
+{
+    enum { MOST = 30 };
+    size_t length = strcspn(at, ",\r\n");
+    return length < MOST ? (int)length : MOST;
+}
+
 static nurbs_status parse_entry(const char *path, const char *at, size_t line, entry *out)
 {
     static const char *const names[5] = {"i", "j", "x", "y", "z"};
@@ -128,14 +136,16 @@ static nurbs_status parse_entry(const char *path, const char *at, size_t line, e
             long index = strtol(at, &end, 10);
             if (end == at || index < 1 || index > 1000000)
                 return nurbs_fail(NURBS_ERROR_FORMAT,
-                                  "%s:%zu: column %s is not an index from 1 to 1000000", path, line,
-                                  names[k]);
+                                  "%s:%zu: column %s is '%.*s', expected an index from 1 to "
+                                  "1000000",
+                                  path, line, names[k], shown(at), at);
             *(k == 0 ? &out->i : &out->j) = index;
         } else {
             out->p[k - 2] = strtod(at, &end);
             if (end == at || !isfinite(out->p[k - 2]))
-                return nurbs_fail(NURBS_ERROR_FORMAT, "%s:%zu: column %s is not a finite number",
-                                  path, line, names[k]);
+                return nurbs_fail(NURBS_ERROR_FORMAT,
+                                  "%s:%zu: column %s is '%.*s', expected a finite number", path,
+                                  line, names[k], shown(at), at);
         }
         at = skip_blank(end);
         if (k < 4 && *at != ',')

@@ -157,7 +157,10 @@ static nurbs_status read_heading(const char *path, const json_t *root, nurbs_pat
                  *lpp = json_object_get(root, "lpp"), *note = json_object_get(root, "note");
     if (!json_is_string(format) || strcmp(json_string_value(format), "nurbs") != 0)
         return nurbs_fail(NURBS_ERROR_FORMAT, "%s: format: expected \"nurbs\"", path);
-    if (!json_is_integer(version) || json_integer_value(version) != 1)
+    if (json_is_integer(version) && json_integer_value(version) != 1)
+        return nurbs_fail(NURBS_ERROR_FORMAT, "%s: version is %lld, expected 1", path,
+                          (long long)json_integer_value(version));
+    if (!json_is_integer(version))
         return nurbs_fail(NURBS_ERROR_FORMAT, "%s: version: expected 1", path);
     if (unit && (!json_is_string(unit) || strcmp(json_string_value(unit), "m") != 0))
         return nurbs_fail(NURBS_ERROR_FORMAT, "%s: unit: expected \"m\"", path);
