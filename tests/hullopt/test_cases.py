@@ -74,6 +74,8 @@ def dtmb5415_l2sea():
     friction = 0.075 / (math.log10(speed * 5.72 / 1.1386e-6) - 2) ** 2
     within(told["total_resistance_after"], 0.5 * 998.5 * speed ** 2 * best["wetted_area"] * (best["cw"] + friction), 1e-9, "R_t")
     assert told["evaluations"] == 1
+    plan = json.loads(do("hullopt", "check", "dtmb5415_l2sea.yaml", "--json"))
+    assert 0 < plan["coarse_seconds"] * plan["coarse_solves"] < plan["seconds"] and plan["coarse_solves"] == 6 * 28, plan
 
 
 def own_iges():

@@ -1,6 +1,7 @@
 #include "cli.h"
 #include "cli/commands.h"
 #include "core/constraints.h"
+#include "core/descent.h"
 #include "core/search.h"
 #include "json_result.h"
 
@@ -15,6 +16,7 @@ struct plan {
     struct problem problem;
     galv_shape *shape;
     struct evaluation parent;
+    double coarse; /* s of a solve for derivatives; 0: the method takes none */
     json_t *warnings;
 };
 
@@ -39,14 +41,29 @@ static bool read_plan(const struct options *options, struct plan *p)
         return false;
     evaluation_start(0, "parent", NULL, &p->parent);
     evaluate_parent(&p->problem, &p->parent, keep_warnings, p);
+    bool descent = method_row(p->config.method)->kind == METHOD_DESCENT;
+    if (descent && !p->parent.failed)
+        p->coarse = descent_coarse_seconds(&p->problem) + p->parent.geometry_seconds;
+    if (isnan(p->coarse))
+        return cli_refuse("%s: the original cannot be solved on the mesh of the derivatives",
+                          p->config.hull);
     return !p->parent.failed || cli_refuse("%s: the original cannot be evaluated (%s)",
                                            p->config.hull, p->parent.reason);
 }
 
+/* For derivatives: with one variable for each parameter, which are the most, at every second
+ * design. */
+static double coarse_solves(const struct plan *p)
+{
+    return p->coarse > 0 ? ceil((double)p->config.iterations / 2) *
+                               (1 + (double)galv_shape_parameters(p->shape))
+                         : 0;
+}
+
 static double seconds(const struct plan *p)
 {
-    return (p->parent.geometry_seconds + p->parent.solve_seconds) *
-           (double)search_budget(&p->config);
+    return coarse_solves(p) * p->coarse + (p->parent.geometry_seconds + p->parent.solve_seconds) *
+                                              (double)search_budget(&p->config);
 }
 
 static bool print_json(const struct plan *p)
@@ -61,6 +78,8 @@ static bool print_json(const struct plan *p)
         igabem_formulation_name(p->problem.solver.formulation), "fr", p->problem.solver.froude,
         "dofs", (int)p->parent.dofs, "cw", p->parent.cw, "evaluations",
         (int)search_budget(&p->config), "seconds", seconds(p), "warnings", p->warnings);
+    json_result_set(o, "coarse_seconds", json_real(p->coarse));
+    json_result_set(o, "coarse_solves", json_real(coarse_solves(p)));
     return json_result_print(o, JSON_INDENT(2) | JSON_REAL_PRECISION(15)) == CLI_OK;
 }
 
@@ -108,6 +127,9 @@ static void print_solver(const struct plan *p)
 static void print_search(const struct plan *p)
 {
     const struct config *c = &p->config;
+    if (p->coarse > 0)
+        printf("%-16s%.2f s a coarse solve, at most %zu each time, about %.0f in all\n",
+               "derivatives", p->coarse, 1 + galv_shape_parameters(p->shape), coarse_solves(p));
     printf("%-16s%s, at most %zu designs: about %.0f min on %d threads\n", "search",
            method_row(c->method)->name, search_budget(c), ceil(seconds(p) / 60), cli_threads());
     printf("%-16sresolution x %d, %zu other speeds\n", "verification", c->verify_refine,

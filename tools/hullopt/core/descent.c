@@ -1,5 +1,6 @@
 #include "core/descent.h"
 
+#include "cli.h"
 #include "core/constraints.h"
 #include "core/forecast.h"
 #include "core/gn_model.h"
@@ -175,6 +176,22 @@ static void coarsen(igabem_options *options)
     options->elements_u = (int)lround(COARSE_SHARE * options->elements_u);
     options->elements_v = (int)lround(COARSE_SHARE * options->elements_v);
     options->tolerance *= COARSE_TOLERANCE;
+}
+
+double descent_coarse_seconds(const struct problem *problem)
+{
+    igabem_options settings[SETTINGS_MOST];
+    igabem_solution *solutions[SETTINGS_MOST];
+    size_t n = evaluate_settings(problem, settings);
+    for (size_t m = 0; m < n; m++)
+        coarsen(&settings[m]);
+    double start = cli_seconds();
+    if (igabem_solve_many(problem->parent.body, n, settings, solutions) != IGABEM_OK)
+        return NAN;
+    double seconds = cli_seconds() - start;
+    for (size_t m = 0; m < n; m++)
+        igabem_solution_free(solutions[m]);
+    return seconds;
 }
 
 /* Of the samples of the pressure that every design has. */

@@ -14,4 +14,7 @@ bool descent_run(struct search *search, double *u);
  * step, at the original, promises most about points all over the box, within all limits by it. */
 bool descent_design(struct problem *problem, size_t n, double *u);
 
+/* Seconds of one solve on the mesh of the derivatives, here of the original; NAN: there is none. */
+double descent_coarse_seconds(const struct problem *problem);
+
 #endif
