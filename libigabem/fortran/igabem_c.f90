@@ -18,6 +18,7 @@ module igabem_c
   integer(c_int), parameter :: igabem_formulation_hogner = 4
   integer(c_int), parameter :: igabem_formulation_michell = 5
   integer(c_int), parameter :: igabem_formulation_exterior = 6
+  integer(c_int), parameter :: igabem_formulation_double_model = 7
   integer(c_int), parameter :: nurbs_ok = 0
   integer(c_int), parameter :: nurbs_error_argument = -1
   integer(c_int), parameter :: nurbs_error_memory = -2
@@ -53,6 +54,7 @@ module igabem_c
     logical(c_bool) :: pressure
     logical(c_bool) :: centre_plane
     logical(c_bool) :: potential
+    logical(c_bool) :: double_model
   end type
 
   type, bind(c) :: nurbs_hydrostatics

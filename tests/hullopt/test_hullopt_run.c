@@ -204,8 +204,8 @@ static void test_speeds(void)
     CU_ASSERT_EQUAL_FATAL(json_array_size(before), 2);
     CU_ASSERT_EQUAL_FATAL(json_array_size(after), 2);
     for (size_t i = 0; i < 2; i++) {
-        /* Each speed has a row of exterior behind it. */
-        const json_t *row = json_array_get(rows, json_array_size(rows) - 4 + 2 * i);
+        /* Each speed has rows of exterior and double-model behind it. */
+        const json_t *row = json_array_get(rows, json_array_size(rows) - 6 + 3 * i);
         CHECK_RELATIVE(json_number_value(json_array_get(before, i)), number(row, "cw_before", NULL),
                        1e-10);
         CHECK_RELATIVE(json_number_value(json_array_get(after, i)), number(row, "cw_after", NULL),

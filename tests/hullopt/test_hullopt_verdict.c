@@ -157,7 +157,7 @@ static void test_plan(void)
     problem.speed[0].stern_length = 0.224; /* by the rule at that speed */
     problem.speed[1].froude = 0.41;
     size_t n = verify_plan(&problem, rows, options);
-    CU_ASSERT_EQUAL(n, 1 + 5 + 2 + 1 + 1 + 2 * 2);
+    CU_ASSERT_EQUAL(n, 1 + 6 + 2 + 1 + 1 + 2 * 3);
     CU_ASSERT_EQUAL(rows[0].group, GROUP_OBJECTIVE);
     for (size_t i = 1; i < n; i++) {
         int speed = options[i].froude != frozen->froude;
@@ -169,18 +169,19 @@ static void test_plan(void)
         CU_ASSERT_EQUAL(options[i].froude, rows[i].froude);
         CU_ASSERT_EQUAL(options[i].refine, rows[i].refine);
     }
-    CU_ASSERT_EQUAL(options[n - 4].stern_length, 0.224);
-    CU_ASSERT_EQUAL(rows[n - 4].stern_length, 0.224);
-    /* The second solver at every speed. */
-    CU_ASSERT_EQUAL(options[n - 3].formulation, IGABEM_FORMULATION_EXTERIOR);
-    CU_ASSERT_EQUAL(options[n - 1].formulation, IGABEM_FORMULATION_EXTERIOR);
+    CU_ASSERT_EQUAL(options[n - 6].stern_length, 0.224);
+    CU_ASSERT_EQUAL(rows[n - 6].stern_length, 0.224);
+    /* Those with water outside of the hull only, at every speed. */
+    CU_ASSERT_EQUAL(options[n - 5].formulation, IGABEM_FORMULATION_EXTERIOR);
+    CU_ASSERT_EQUAL(options[n - 2].formulation, IGABEM_FORMULATION_EXTERIOR);
+    CU_ASSERT_EQUAL(options[n - 1].formulation, IGABEM_FORMULATION_DOUBLE_MODEL);
     CU_ASSERT_EQUAL(options[n - 1].froude, 0.41);
     frozen->formulation = IGABEM_FORMULATION_NEUMANN_KELVIN;
     config.verify_refine = 1;
     problem.speeds = 0;
-    CU_ASSERT_EQUAL(verify_plan(&problem, rows, options), 1 + 5 + 1);
+    CU_ASSERT_EQUAL(verify_plan(&problem, rows, options), 1 + 6 + 1);
     frozen->cutoff_angle = INFINITY; /* submerged: no filter to choose */
-    CU_ASSERT_EQUAL(verify_plan(&problem, rows, options), 1 + 5);
+    CU_ASSERT_EQUAL(verify_plan(&problem, rows, options), 1 + 6);
 }
 
 static const struct check_case cases[] = {

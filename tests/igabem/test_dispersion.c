@@ -60,7 +60,7 @@ static void test_plane(void)
     make_surface(16, 0.0, &plain);
     const struct free_surface *surface = &plain.surface;
     struct surface_operator operator_;
-    CU_ASSERT_EQUAL_FATAL(operator_create(surface, &operator_), IGABEM_OK);
+    CU_ASSERT_EQUAL_FATAL(operator_create(surface, NULL, &operator_), IGABEM_OK);
     const struct dispersion_grid grid = {.h = 1.0};
     const double dx = surface->dx, eps = 2 * pi / 12;
     struct dispersion_scheme damped = used;
@@ -111,7 +111,7 @@ static void test_wedge(void)
     make_surface(32, slope, &plain);
     const struct free_surface *surface = &plain.surface;
     struct surface_operator operator_;
-    CU_ASSERT_EQUAL_FATAL(operator_create(surface, &operator_), IGABEM_OK);
+    CU_ASSERT_EQUAL_FATAL(operator_create(surface, NULL, &operator_), IGABEM_OK);
     double here = slope * ((double)(i - surface->bow) + 0.5) * surface->dx;
     double all = ROWS * surface->dx, share = 1.0 - ((double)j + 0.5) * surface->dx / all;
     double h = 1.0 - here / all;
@@ -145,7 +145,7 @@ static void test_bow(void)
             phi[(i - 1) * ny + j] = y * y - along * along - 0.25 * across * across;
         }
     struct surface_operator operator_;
-    CU_ASSERT_EQUAL_FATAL(operator_create(surface, &operator_), IGABEM_OK);
+    CU_ASSERT_EQUAL_FATAL(operator_create(surface, NULL, &operator_), IGABEM_OK);
     for (size_t i = surface->bow - 2; i < surface->bow + 2; i++)
         for (size_t j = 8; j < 14; j++) {
             const struct sparse *second = &operator_.second;

@@ -73,7 +73,8 @@ static const struct setting ROWS[] = {
     ROW("tolerance", NUMBER, options.tolerance,
         .sentence = "relative error asked of the quadrature", SETTING_FROM(1e-12, 1e-2)),
     ROW("surface-cells", NUMBER, options.surface_cells,
-        .sentence = "of exterior: cells of its free surface along the hull; by rule 48, over a "
+        .sentence = "of exterior and double-model: cells of the free surface along the hull; by "
+                    "rule 48, over a "
                     "submerged one 24",
         SETTING_FROM(4, 1000), .words = BY_MESH),
     ROW("solver", CHOICE, options.solver, .sentence = "auto: gmres from 1000 unknowns on",

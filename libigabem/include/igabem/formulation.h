@@ -22,7 +22,8 @@ typedef enum igabem_formulation {
     IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN,
     IGABEM_FORMULATION_HOGNER,
     IGABEM_FORMULATION_MICHELL,
-    IGABEM_FORMULATION_EXTERIOR
+    IGABEM_FORMULATION_EXTERIOR,
+    IGABEM_FORMULATION_DOUBLE_MODEL
 } igabem_formulation;
 
 /** A formulation, with the Kelvin kernel. Of IGABEM_FORMULATION_AUTO: what holds whichever it
@@ -40,6 +41,8 @@ typedef struct igabem_formulation_row {
     bool centre_plane; /**< the sources radiate from the centre plane */
     bool potential; /**< the unknown is the potential on hull and free surface, by Green's identity
                        in the water outside; else a source density on the hull alone */
+    bool double_model; /**< of a potential: the free surface is linearised about the double-body
+                          flow, which runs along the hull, else about the free stream */
 } igabem_formulation_row;
 
 /** The row of a formulation; NULL if there is no such one, so that counting up from

@@ -224,3 +224,31 @@ igabem_status layer_add(const struct layer_surface *surface, const struct layer_
         status = add_near(surface, point, i, image[i], work, rows);
     return status;
 }
+
+void layer_collocation(const struct influence *influence, size_t i, struct layer_point *point,
+                       double *row)
+{
+    const struct density *density = influence->density;
+    const struct mesh *mesh = influence->mesh;
+    size_t patch = density->owner[i];
+    memset(point, 0, sizeof *point);
+    memcpy(point->at, density->point + 3 * i, sizeof point->at);
+    for (size_t e = mesh->patch_base[patch]; e < mesh->patch_base[patch + 1]; e++) {
+        const struct element *element = &mesh->element[e];
+        double *local = point->local[point->homes];
+        if (point->homes == LAYER_HOMES || !element_contains(density, element, i, local))
+            continue;
+        point->home[point->homes++] = e;
+        if (point->homes > 1)
+            continue;
+        double bu[ELEMENT_SIDE], bv[ELEMENT_SIDE], value[ELEMENT_FUNCTIONS];
+        size_t m = (size_t)element->degree[0] + 1, n = (size_t)element->degree[1] + 1;
+        struct jet jet;
+        element_jet(element, local[0], local[1], &jet);
+        bernstein(element->degree[0], local[0], bu, NULL);
+        bernstein(element->degree[1], local[1], bv, NULL);
+        for (size_t k = 0; k < m * n; k++)
+            value[k] = 0.5 * bu[k / n] * bv[k % n] / jet.weight;
+        element_scatter(element, 1, value, row, 0);
+    }
+}

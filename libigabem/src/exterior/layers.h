@@ -17,6 +17,11 @@ struct layer_point {
     double local[LAYER_HOMES][2];
 };
 
+/* A collocation point of the density, the elements that it lies on, and there half the basis, which
+ * is added to the row: the solid angle of the other side. */
+void layer_collocation(const struct influence *influence, size_t i, struct layer_point *point,
+                       double *row);
+
 /* The surface, by its mesh and far rules, and how it is seen. */
 struct layer_surface {
     const struct influence *influence;

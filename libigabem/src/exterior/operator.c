@@ -124,9 +124,9 @@ static void add_coefficient(struct target *target, long i, long j, double factor
 }
 
 /* Derivatives of eta(x, y) at the middle of the first (place 0), middle or last line of cell
- * (i, j), from within the cell, and dy/deta. */
+ * (i, j), from within the cell, and the first two of y(eta). */
 struct lines {
-    double ex, exx, exe, ye;
+    double ex, exx, exe, ye, yee;
 };
 
 static struct lines lines_at(const struct free_surface *surface, size_t i, size_t j, size_t place)
@@ -143,7 +143,7 @@ static struct lines lines_at(const struct free_surface *surface, size_t i, size_
     double yxx = 4.0 * (y[2][1] - 2.0 * y[1][1] + y[0][1]) / (dx * dx);
     double ex = -yx[1] / ye;
     return (struct lines){ex, -(yxx + 2.0 * ex * yxe + ex * ex * yee) / ye, -(yxe + ex * yee) / ye,
-                          ye};
+                          ye, yee};
 }
 
 /* Adds slope times J and bend times K of row j, the jumps of F_xi and F_xi,xi over (xi, eta) at the
@@ -199,31 +199,46 @@ static void add_product(struct target *target, size_t i, size_t j, const double 
 }
 
 /* phi_xx at the middle of cell (i, j), F over (x, eta):
- *     phi_xx = F_xx + 2 eta_x F_x,eta + eta_x^2 F_eta,eta + eta_xx F_eta. */
-static void second_row(struct target *target, const struct across *across, size_t i, size_t j)
+ *     phi_xx = F_xx + 2 eta_x F_x,eta + eta_x^2 F_eta,eta + eta_xx F_eta,
+ * and with another base flow, c = w_i eta_i, and g_i what multiplies phi_i
+ *     w_x^2 F_xx + 2 w_x c F_x,eta + c^2 F_eta,eta + w_i w_j eta_ij F_eta + g_x F_x + g_i eta_i
+ * F_eta. */
+static void second_row(struct target *target, const struct across *across,
+                       const struct base_point *base, size_t i, size_t j)
 {
     const struct free_surface *surface = target->surface;
     const struct lines at = lines_at(surface, i, j, 1);
     const double(*d)[ALONG] = i + 1 < surface->nx ? spline_along : spline_last, dx = surface->dx;
-    add_product(target, i, j, d[2], across->value, 1.0 / (dx * dx));
-    add_product(target, i, j, d[1], across->first, -2.0 * at.ex / dx);
-    add_product(target, i, j, d[0], across->second, at.ex * at.ex);
-    add_product(target, i, j, d[0], across->first, at.exx);
+    const double w[2] = {base->gradient[0] - 1.0, base->gradient[1]}, *h = base->second;
+    double ey = 1.0 / at.ye, exy = at.exe * ey, eyy = -at.yee * ey * ey * ey;
+    double c = w[0] * at.ex + w[1] * ey, spread = h[0] + h[2];
+    double gx = 2.0 * (w[0] * h[0] + w[1] * h[1]) + spread * w[0];
+    double gy = 2.0 * (w[0] * h[1] + w[1] * h[2]) + spread * w[1];
+    double bend = w[0] * w[0] * at.exx + 2.0 * w[0] * w[1] * exy + w[1] * w[1] * eyy;
+    add_product(target, i, j, d[2], across->value, w[0] * w[0] / (dx * dx));
+    add_product(target, i, j, d[1], across->first, -2.0 * w[0] * c / dx);
+    add_product(target, i, j, d[0], across->second, c * c);
+    add_product(target, i, j, d[0], across->first, bend + gx * at.ex + gy * ey);
+    add_product(target, i, j, d[1], across->value, -gx / dx);
 }
 
-/* -2 mu phi_x over sqrt(k0), of the sixth difference across. */
-static void odd_row(struct target *target, const struct across *across, size_t i, size_t j)
+/* 2 mu w_i phi_i over sqrt(k0), of the sixth difference across. */
+static void odd_row(struct target *target, const struct across *across,
+                    const struct base_point *base, size_t i, size_t j)
 {
     const struct free_surface *surface = target->surface;
     const struct lines at = lines_at(surface, i, j, 1);
     const double(*d)[ALONG] = i + 1 < surface->nx ? spline_along : spline_last;
     const double twice = 1.0 / (64.0 * sqrt(PI * at.ye));
-    add_product(target, i, j, d[1], across->value_sixth, twice / surface->dx);
-    add_product(target, i, j, d[0], across->first_sixth, -twice * at.ex);
+    const double w[2] = {base->gradient[0] - 1.0, base->gradient[1]};
+    add_product(target, i, j, d[1], across->value_sixth, -w[0] * twice / surface->dx);
+    add_product(target, i, j, d[0], across->first_sixth, twice * (w[0] * at.ex + w[1] / at.ye));
 }
 
-igabem_status operator_create(const struct free_surface *surface, struct surface_operator *result)
+igabem_status operator_create(const struct free_surface *surface, const struct base_point *base,
+                              struct surface_operator *result)
 {
+    static const struct base_point stream = {{0.0, 0.0}, {0.0, 0.0, 0.0}};
     size_t nx = surface->nx, ny = surface->ny, n = nx * ny, room[3] = {0, 0, 0};
     size_t columns = n + surface->stern - surface->bow;
     struct across across;
@@ -236,11 +251,12 @@ igabem_status operator_create(const struct free_surface *surface, struct surface
     bool complete = result->value.start && result->second.start && result->odd.start && row;
     for (size_t c = 0; c < n && complete; c++) {
         size_t i = c / ny, j = c % ny;
+        const struct base_point *at = base ? &base[c] : &stream;
         add_product(&target, i, j, spline_along[0], across.value, 1.0);
         complete = sparse_append(&result->value, columns, row, &room[0]);
-        second_row(&target, &across, i, j);
+        second_row(&target, &across, at, i, j);
         complete = complete && sparse_append(&result->second, columns, row, &room[1]);
-        odd_row(&target, &across, i, j);
+        odd_row(&target, &across, at, i, j);
         complete = complete && sparse_append(&result->odd, columns, row, &room[2]);
     }
     free(row);
@@ -272,21 +288,23 @@ igabem_status operator_edge(const struct free_surface *surface, const struct den
     return status;
 }
 
-double operator_slope(const struct free_surface *surface, const struct free_surface_place *place,
-                      const double *phi)
+void operator_gradient(const struct free_surface *surface, const struct free_surface_place *place,
+                       const double *phi, double gradient[2])
 {
     double i = fmin(floor(place->xi), (double)surface->nx - 1.0);
     double j = fmin(floor(place->eta), (double)surface->ny - 1.0);
     double u[3], du[3], v[3], dv[3];
-    struct target slope = {.surface = surface, .phi = phi};
+    struct target along = {.surface = surface, .phi = phi}, across = along;
     enum zone from = zone_of(surface, (long)i);
     spline_evaluate(place->xi - i, u, du);
     spline_evaluate(place->eta - j, v, dv);
     for (int a = 0; a < 3; a++)
-        for (int b = 0; b < 3; b++)
-            add_seen(&slope, from, (long)i + a - 1, (long)j + b - 1,
-                     place->eta_x * u[a] * dv[b] - du[a] * v[b] / surface->dx);
-    return slope.sum;
+        for (int b = 0; b < 3; b++) {
+            add_seen(&along, from, (long)i + a - 1, (long)j + b - 1, -du[a] * v[b] / surface->dx);
+            add_seen(&across, from, (long)i + a - 1, (long)j + b - 1, u[a] * dv[b]);
+        }
+    gradient[0] = along.sum + place->eta_x * across.sum;
+    gradient[1] = place->eta_y * across.sum;
 }
 
 void operator_fold(const struct free_surface *surface, double *coefficients, double *scratch)

@@ -17,36 +17,10 @@ void exterior_system_free(struct exterior_system *system)
     free(system->odd);
     free(system->right);
     free(system->slope);
+    free(system->known);
+    free(system->base);
+    sparse_free(&system->second);
     *system = (struct exterior_system){0};
-}
-
-/* A collocation point of the hull, its elements, and there half the basis: the solid angle. */
-static void hull_point(const struct influence *hull, size_t i, struct layer_point *point,
-                       double *row)
-{
-    const struct density *density = hull->density;
-    const struct mesh *mesh = hull->mesh;
-    size_t patch = density->owner[i];
-    memset(point, 0, sizeof *point);
-    memcpy(point->at, density->point + 3 * i, sizeof point->at);
-    for (size_t e = mesh->patch_base[patch]; e < mesh->patch_base[patch + 1]; e++) {
-        const struct element *element = &mesh->element[e];
-        double *local = point->local[point->homes];
-        if (point->homes == LAYER_HOMES || !element_contains(density, element, i, local))
-            continue;
-        point->home[point->homes++] = e;
-        if (point->homes > 1)
-            continue;
-        double bu[ELEMENT_SIDE], bv[ELEMENT_SIDE], value[ELEMENT_FUNCTIONS];
-        size_t m = (size_t)element->degree[0] + 1, n = (size_t)element->degree[1] + 1;
-        struct jet jet;
-        element_jet(element, local[0], local[1], &jet);
-        bernstein(element->degree[0], local[0], bu, NULL);
-        bernstein(element->degree[1], local[1], bv, NULL);
-        for (size_t k = 0; k < m * n; k++)
-            value[k] = 0.5 * bu[k / n] * bv[k % n] / jet.weight;
-        element_scatter(element, 1, value, row, 0);
-    }
 }
 
 /* What the rows are made of. */
@@ -114,8 +88,9 @@ static void add_strip(const struct exterior_system *system, const struct transom
 /* Strengths of the free surface: the layer's factors through the operator. */
 static igabem_status add_waves(const struct assembly *assembly, const struct layer_point *point,
                                struct row_work *work, const struct exterior_system *system,
-                               double *wave, double *odd)
+                               size_t i)
 {
+    double *wave = system->wave + i * system->n, *odd = system->odd + i * system->n;
     const struct free_surface *surface = assembly->surface;
     struct layer_rows rows = {.single = work->single};
     memset(work->single, 0, surface->coefficients * sizeof *work->single);
@@ -126,6 +101,8 @@ static igabem_status add_waves(const struct assembly *assembly, const struct lay
         size_t at = (c / surface->ny + 1) * surface->columns + c % surface->ny + 1;
         add_surface(system, assembly, &assembly->operator_.second, c, work->single[at], wave);
         add_surface(system, assembly, &assembly->operator_.odd, c, work->single[at], odd);
+        if (system->base)
+            system->known[i] += work->single[at] * base_flow_known(&system->base[c]);
     }
     return status;
 }
@@ -166,17 +143,16 @@ static igabem_status add_transom(const struct assembly *assembly, const struct l
 static igabem_status fill_row(const struct assembly *assembly, size_t i, struct row_work *work,
                               struct exterior_system *system)
 {
-    double *fixed = system->fixed + i * system->n, *wave = system->wave + i * system->n;
-    double *odd = system->odd + i * system->n;
+    double *fixed = system->fixed + i * system->n;
     memset(fixed, 0, system->n * sizeof *fixed);
-    memset(wave, 0, system->n * sizeof *wave);
-    memset(odd, 0, system->n * sizeof *odd);
-    system->right[i] = system->slope[i] = 0.0;
+    memset(system->wave + i * system->n, 0, system->n * sizeof *fixed);
+    memset(system->odd + i * system->n, 0, system->n * sizeof *fixed);
+    system->right[i] = system->slope[i] = system->known[i] = 0.0;
     struct layer_point on_hull = {.homes = 0}, on_surface = {.homes = 0};
     const struct layer_point *on_strip = NULL;
     size_t c = i - system->hull;
     if (i < system->hull) {
-        hull_point(assembly->layer[PART_HULL].influence, i, &on_hull, fixed);
+        layer_collocation(assembly->layer[PART_HULL].influence, i, &on_hull, fixed);
         memcpy(on_surface.at, on_hull.at, sizeof on_hull.at);
     } else if (c < system->cells) {
         on_surface = assembly->surface->point[c];
@@ -196,7 +172,7 @@ static igabem_status fill_row(const struct assembly *assembly, size_t i, struct 
         layer_add(&assembly->layer[PART_HULL], &on_hull, &work->layer[PART_HULL], &dipole);
     system->right[i] += dipole.flow;
     if (status == IGABEM_OK)
-        status = add_waves(assembly, &on_surface, work, system, wave, odd);
+        status = add_waves(assembly, &on_surface, work, system, i);
     if (status == IGABEM_OK && assembly->transom)
         status = add_transom(assembly, on_strip, on_hull.at, work, system, i);
     return status;
@@ -261,9 +237,7 @@ static igabem_status assembly_create(const struct influence *hull,
     assembly->doubles = surface->coefficients + surface->nx + surface->ny;
     if (transom && assembly->doubles < transom->coefficients + transom->cells)
         assembly->doubles = transom->coefficients + transom->cells;
-    igabem_status status = operator_create(surface, &assembly->operator_);
-    if (status == IGABEM_OK)
-        status = operator_edge(surface, hull->density, hull->mesh, &assembly->edge);
+    igabem_status status = operator_edge(surface, hull->density, hull->mesh, &assembly->edge);
     for (size_t p = 0; p < assembly->parts && status == IGABEM_OK; p++) {
         if (p != PART_HULL)
             status = influence_create(hull->density, mesh[p], hull->tolerance, hull->threads,
@@ -280,7 +254,8 @@ static igabem_status assembly_create(const struct influence *hull,
 
 igabem_status exterior_system_create(const struct influence *hull,
                                      const struct free_surface *surface,
-                                     const struct transom *transom, struct exterior_system *system)
+                                     const struct transom *transom, bool double_model,
+                                     struct exterior_system *system)
 {
     size_t cells = surface->nx * surface->ny;
     size_t n = hull->density->n + cells + (transom ? transom->cells * transom->n : 0);
@@ -291,14 +266,26 @@ igabem_status exterior_system_create(const struct influence *hull,
                                        .wave = malloc(n * n * sizeof(double)),
                                        .odd = malloc(n * n * sizeof(double)),
                                        .right = malloc(n * sizeof(double)),
-                                       .slope = malloc(n * sizeof(double))};
-    if (!system->fixed || !system->wave || !system->odd || !system->right || !system->slope)
+                                       .slope = malloc(n * sizeof(double)),
+                                       .known = malloc(n * sizeof(double))};
+    if (!system->fixed || !system->wave || !system->odd || !system->right || !system->slope ||
+        !system->known)
         return no_memory(n);
     struct assembly assembly;
     igabem_status status = assembly_create(hull, surface, transom, &assembly);
     if (status != IGABEM_OK)
         return status;
-    status = fill(&assembly, hull, system);
+    if (double_model)
+        status = base_flow_create(hull, surface, transom, assembly.influence[PART_FACE],
+                                  &assembly.edge, &system->base);
+    if (status == IGABEM_OK)
+        status = operator_create(surface, system->base, &assembly.operator_);
+    if (status == IGABEM_OK)
+        status = fill(&assembly, hull, system);
+    if (status == IGABEM_OK && double_model) {
+        system->second = assembly.operator_.second;
+        assembly.operator_.second = (struct sparse){0};
+    }
     assembly_free(&assembly);
     return status;
 }

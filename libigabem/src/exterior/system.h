@@ -7,19 +7,22 @@
 #ifndef SYSTEM_H
 #define SYSTEM_H
 
-#include "exterior/operator.h"
+#include "exterior/base_flow.h"
 #include "exterior/transom.h"
 
-/* (fixed - wave/k0 - damping odd/sqrt(k0)) q = U (right + k0 slope), row by row. */
+/* (fixed - wave/k0 - damping odd/sqrt(k0)) q = U (right + k0 slope - known/k0), row by row. */
 struct exterior_system {
     size_t n, hull, cells; /* unknowns, those on the hull and on the free surface */
-    double *fixed, *wave, *odd, *right, *slope;
+    double *fixed, *wave, *odd, *right, *slope, *known;
+    struct base_point *base; /* of each cell; NULL: linearised about the free stream */
+    struct sparse second;    /* of the operator about base, else empty */
 };
 
-/* transom: NULL without one. */
+/* transom: NULL without one. double_model: linearised about the double-body flow. */
 igabem_status exterior_system_create(const struct influence *hull,
                                      const struct free_surface *surface,
-                                     const struct transom *transom, struct exterior_system *system);
+                                     const struct transom *transom, bool double_model,
+                                     struct exterior_system *system);
 void exterior_system_free(struct exterior_system *system);
 
 #endif

@@ -1,12 +1,25 @@
 #include "result/elevation_surface.h"
 
 #include "core/error.h"
-#include "exterior/operator.h"
+#include "exterior/base_flow.h"
 #include "exterior/transom.h"
 
 #include <igabem/solve.h>
 
 #include <math.h>
+
+/* g zeta/U: phi_x, and about another flow w = -e_x + grad Phi the same of Bernoulli's equation
+ * linearised there: - w grad phi + U |grad Phi|^2/2. */
+static double slope(const igabem_solution *solution, const struct free_surface_place *place)
+{
+    double gradient[2], base[2];
+    operator_gradient(solution->surface, place, solution->surface_phi, gradient);
+    if (!solution->base)
+        return gradient[0];
+    base_flow_at(solution->surface, solution->base, place, base);
+    return (1.0 - base[0]) * gradient[0] - base[1] * gradient[1] +
+           0.5 * solution->speed * (base[0] * base[0] + base[1] * base[1]);
+}
 
 igabem_status elevation_surface(const igabem_solution *solution, size_t n, const double *x,
                                 const double *y, double *zeta)
@@ -19,7 +32,7 @@ igabem_status elevation_surface(const igabem_solution *solution, size_t n, const
         struct free_surface_place place;
         zeta[i] = NAN;
         if (free_surface_locate(surface, x[i], y[i], &place))
-            zeta[i] = scale * operator_slope(surface, &place, solution->surface_phi);
+            zeta[i] = scale * slope(solution, &place);
         else if (solution->transom && x[i] <= solution->transom->x && x[i] >= aft &&
                  fabs(y[i]) <= solution->transom->breadth)
             zeta[i] = scale * transom_slope(solution->transom, x[i], y[i], solution->strip_phi);

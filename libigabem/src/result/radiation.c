@@ -1,6 +1,7 @@
 #include "result/radiation.h"
 
 #include "core/error.h"
+#include "exterior/free_surface.h"
 #include "exterior/transom.h"
 
 #include <math.h>
@@ -96,6 +97,33 @@ static igabem_status add_face(const igabem_solution *solution, struct sources *s
     return status;
 }
 
+/* The cells of a double model: sources in the still water, so many to a side of a cell. */
+static igabem_status add_cells(const igabem_solution *solution, struct sources *sources)
+{
+    enum { SIDE = 3 };
+    const struct free_surface *surface = solution->surface;
+    size_t cells = surface->nx * surface->ny, n = 0;
+    double(*line)[4] = malloc(cells * SIDE * SIDE * sizeof *line);
+    if (!line)
+        return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu cells of the free surface",
+                           cells);
+    for (size_t c = 0; c < cells; c++)
+        for (int a = 0; a < SIDE; a++)
+            for (int b = 0; b < SIDE; b++) {
+                double xi = (double)(c / surface->ny) + (a + 0.5) / SIDE;
+                size_t row = 2 * (c % surface->ny);
+                double inner = free_surface_y(surface, xi, row);
+                double outer = free_surface_y(surface, xi, row + 2);
+                line[n][0] = surface->x0 - surface->dx * xi;
+                line[n][1] = inner + (outer - inner) * (b + 0.5) / SIDE;
+                line[n][2] = solution->excess[c] / (SIDE * SIDE);
+                line[n++][3] = 0.0;
+            }
+    igabem_status status = sources_append(sources, 0, NULL, n, (const double(*)[4])line);
+    free(line);
+    return status;
+}
+
 igabem_status radiation_sources(const igabem_solution *solution, enum radiation_cutoff cutoff,
                                 double t_max, size_t cuts, const double *cut,
                                 struct sources **sources)
@@ -107,11 +135,12 @@ igabem_status radiation_sources(const igabem_solution *solution, enum radiation_
     if (status)
         return status;
     place_sources(solution->formulation, solution->speed, *sources);
-    if (solution->transom) {
+    if (solution->transom)
         status = add_face(solution, *sources);
-        if (status)
-            sources_free(*sources);
-    }
+    if (!status && solution->excess)
+        status = add_cells(solution, *sources);
+    if (status)
+        sources_free(*sources);
     return status;
 }
 
@@ -119,6 +148,9 @@ igabem_status radiation_sources(const igabem_solution *solution, enum radiation_
  * not resolve: on transom hulls at Fr 0.28 t 8 to 20 would add a quarter, on a Wigley hull 0.05 %.
  */
 static const double most_potential_angle = 8.0;
+/* Of a double model the cells radiate too, and cannot beyond what they resolve: t 4 to 8 would add
+ * 1 to 2 % on a Wigley hull and Series 60, on the DTMB 5415 12 % at 40 cells and 18 % at 56. */
+static const double most_double_model_angle = 4.0;
 
 /* Upper bound of z: the control points' (the hull lies in their hull). */
 static double top(const igabem_solution *solution)
@@ -139,7 +171,7 @@ double radiation_limit(const igabem_solution *solution)
     const double decay = 40.0; /* of |H|^2 */
     double limit = solution->options.spectrum_limit, depth = -top(solution);
     if (solution->potential)
-        limit = fmin(limit, most_potential_angle);
+        limit = fmin(limit, solution->base ? most_double_model_angle : most_potential_angle);
     if (solution->info.surface_piercing || !(depth > 0))
         return limit;
     return sqrt(decay / (2.0 * solution->k0 * depth));

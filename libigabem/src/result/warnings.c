@@ -146,8 +146,9 @@ static bool conserves_momentum(const struct subject *s)
 {
     const igabem_formulation_row *row = s->solution->formulation;
     return s->solution->waves && s->info->surface_piercing &&
-           (row->potential || (row->kelvin_rows && row->line_term && !row->stern_rows &&
-                               s->solution->options.line_term));
+           ((row->potential && !row->double_model) ||
+            (row->kelvin_rows && row->line_term && !row->stern_rows &&
+             s->solution->options.line_term));
 }
 
 static bool momentum_gap(const struct subject *s, struct sentence *sentence)

@@ -48,6 +48,14 @@ static const igabem_formulation_row table[] = {
                                      .solves = true,
                                      .pressure = true,
                                      .potential = true},
+    /* Dawson 1977; Nakos and Sclavounos 1990. */
+    [IGABEM_FORMULATION_DOUBLE_MODEL] = {.name = "double-model",
+                                         .sentence = "the same, linearised about the double-body "
+                                                     "flow instead of the free stream",
+                                         .solves = true,
+                                         .pressure = true,
+                                         .potential = true,
+                                         .double_model = true},
 };
 enum { ROWS = sizeof table / sizeof *table };
 

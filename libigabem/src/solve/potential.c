@@ -10,8 +10,9 @@
 
 static bool same_surface(const igabem_options *a, const igabem_options *b)
 {
-    return a->surface_cells == b->surface_cells && a->surface_rows == b->surface_rows &&
-           a->surface_first == b->surface_first && a->surface_upstream == b->surface_upstream &&
+    return a->formulation == b->formulation && a->surface_cells == b->surface_cells &&
+           a->surface_rows == b->surface_rows && a->surface_first == b->surface_first &&
+           a->surface_upstream == b->surface_upstream &&
            a->surface_downstream == b->surface_downstream && a->surface_side == b->surface_side &&
            a->surface_columns == b->surface_columns;
 }
@@ -133,6 +134,18 @@ static igabem_status keep_surface(const struct influence *influence, igabem_solu
     return status;
 }
 
+/* The flow about which the surface was linearised, and what its cells radiate. */
+static igabem_status keep_base(const struct exterior_system *system, igabem_solution *solution)
+{
+    solution->base = malloc(system->cells * sizeof *solution->base);
+    solution->excess = malloc(system->cells * sizeof *solution->excess);
+    if (!solution->base || !solution->excess)
+        return solution_no_memory(system->cells);
+    memcpy(solution->base, system->base, system->cells * sizeof *solution->base);
+    return base_flow_excess(solution->surface, solution->base, &system->second,
+                            solution->surface_phi, solution->speed, solution->k0, solution->excess);
+}
+
 static igabem_status solve_one(const struct influence *influence,
                                const struct exterior_system *system, double *rows,
                                igabem_solution *solution)
@@ -146,7 +159,8 @@ static igabem_status solve_one(const struct influence *influence,
     for (size_t k = 0; k < n * n; k++)
         rows[k] = system->fixed[k] - scale * system->wave[k] - damping * system->odd[k];
     for (size_t i = 0; i < n; i++)
-        right[i] = solution->speed * (system->right[i] + solution->k0 * system->slope[i]);
+        right[i] = solution->speed * (system->right[i] + solution->k0 * system->slope[i] -
+                                      system->known[i] / solution->k0);
     const struct matrix matrix = {n, n, rows, influence->threads, influence->progress};
     igabem_status status = linear_lu(&matrix, right, &solution->condition);
     solution->options.solver = IGABEM_SOLVER_LU;
@@ -155,6 +169,8 @@ static igabem_status solve_one(const struct influence *influence,
         memcpy(solution->sigma, right, system->hull * sizeof *right);
         status = keep_surface(influence, solution, right + system->hull);
     }
+    if (status == IGABEM_OK && system->base)
+        status = keep_base(system, solution);
     if (status == IGABEM_OK)
         status = fill_velocity(influence, solution);
     free(right);
@@ -178,7 +194,8 @@ static igabem_status solve_alike(const struct influence *influence, size_t n,
     progress_stage(progress, fraction + 0.5 * share * (double)alike, 1);
     fraction += 0.5 * share * (double)alike;
     if (status == IGABEM_OK)
-        status = exterior_system_create(influence, surface, transom, &system);
+        status = exterior_system_create(influence, surface, transom,
+                                        solutions[0]->formulation->double_model, &system);
     double *rows = status == IGABEM_OK ? malloc(system.n * system.n * sizeof *rows) : NULL;
     if (status == IGABEM_OK && !rows)
         status = solution_no_memory(system.n);

@@ -67,6 +67,8 @@ void igabem_solution_free(igabem_solution *solution)
     density_free(solution->density);
     free_surface_free(solution->surface);
     free(solution->surface_phi);
+    free(solution->base);
+    free(solution->excess);
     transom_free(solution->transom);
     free(solution->strip_phi);
     free(solution->sigma);

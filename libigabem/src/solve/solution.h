@@ -16,6 +16,8 @@ struct igabem_solution {
     bool potential; /* sigma holds the coefficients of the potential on the hull, m^2/s */
     struct free_surface *surface; /* of a potential: where it was solved; NULL: none */
     double *surface_phi;          /* its coefficients there, then those of the hull's edge */
+    struct base_point *base;      /* of each cell of a double model; else NULL */
+    double *excess;               /* what the cell radiates then, m^3/s */
     struct transom *transom;      /* strip and face of a dry one; NULL: none */
     double *strip_phi;            /* coefficients, the rim's phi and its slope */
     double *velocity;     /* [3][n] coefficients of grad phi on the hull, fluid side; NULL: none */

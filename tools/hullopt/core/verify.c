@@ -87,9 +87,13 @@ size_t verify_plan(const struct problem *problem, struct verification rows[VERIF
         igabem_options outside = problem->speed[i];
         snprintf(label, sizeof label, "Fr %g", outside.froude);
         add(rows, options, &n, GROUP_SPEED, label, &outside);
-        outside.formulation = IGABEM_FORMULATION_EXTERIOR;
-        if (frozen->formulation != IGABEM_FORMULATION_EXTERIOR)
-            add(rows, options, &n, GROUP_SPEED, label, &outside);
+        static const igabem_formulation outside_of_it[] = {IGABEM_FORMULATION_EXTERIOR,
+                                                           IGABEM_FORMULATION_DOUBLE_MODEL};
+        for (size_t k = 0; k < 2; k++) {
+            outside.formulation = outside_of_it[k];
+            if (frozen->formulation != outside_of_it[k])
+                add(rows, options, &n, GROUP_SPEED, label, &outside);
+        }
     }
     return n;
 }

@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-static const char *const colours[FORMULATIONS_MOST] = {PLOT_INK, PLOT_OPTIMUM, PLOT_BLUE,
-                                                       PLOT_ORIGINAL, PLOT_RED};
+static const char *const colours[FORMULATIONS_MOST] = {PLOT_INK,      PLOT_OPTIMUM, PLOT_BLUE,
+                                                       PLOT_ORIGINAL, PLOT_RED,     PLOT_PALE};
 
 /* Every design by the search's formulation and by the others. */
 static void scatter(FILE *out, const struct agreement *a)
