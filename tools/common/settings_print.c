@@ -1,6 +1,7 @@
 #include "cli.h"
 #include "settings_internal.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
@@ -100,6 +101,8 @@ static bool print_file(const char *path, FILE *out)
 {
     const char *slash = strrchr(path, '/');
     FILE *file = fopen(path, "rb");
+    if (!file && errno == ENOMEM)
+        cli_needed(NULL);
     if (!file)
         return false;
     uint64_t hash = UINT64_C(0xcbf29ce484222325); /* FNV-1a */

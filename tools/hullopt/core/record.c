@@ -370,7 +370,7 @@ static bool read_origin(const struct record *record, struct origin *o)
     if (o->gradient && rows * columns != galv_model_modes(o->model))
         return core_fail("'volume.gradient' has %zu numbers, expected %zu", rows * columns,
                          galv_model_modes(o->model));
-    return o->configuration || core_fail("it has no configuration");
+    return (o->configuration && *o->configuration) || core_fail("it has no configuration");
 }
 
 bool record_read(const char *path, struct record *record, struct origin *origin)
