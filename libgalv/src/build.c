@@ -237,11 +237,9 @@ static galv_status run(const galv_job *job, galv_model **out)
         status = galv_stream_start(&stream, job->source, job->block, job->weights, options->centre);
     if (status)
         return status;
-    stream.progress = options->progress;
-    stream.progress_user_data = options->progress_user_data;
-    stream.progress_share = 0.5;
+    stream.stage.tell = options->progress;
+    stream.stage.user_data = options->progress_user_data;
     status = galv_spectrum_find(&stream, job, method, &goal, &spectrum);
-    stream.progress_done = 0.5;
     if (!status)
         status =
             galv_model_assemble(&stream, &spectrum, &goal, job, job->source->samples,

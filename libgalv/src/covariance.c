@@ -62,9 +62,9 @@ galv_status galv_spectrum_covariance(galv_stream *stream, const galv_goal *goal,
         cblas_dsyr(CblasColMajor, CblasLower, (blasint)matrix.order, -1, spectrum->mean, 1,
                    matrix.c, (blasint)matrix.order);
     if (!status)
-        status =
-            galv_spectrum_matrix(matrix.order, matrix.c, spectrum->trace, goal, &spectrum->known,
-                                 &spectrum->values, &spectrum->vectors, &spectrum->residuals);
+        status = galv_spectrum_matrix(matrix.order, matrix.c, spectrum->trace, goal,
+                                      &spectrum->known, &spectrum->values, &spectrum->vectors,
+                                      &spectrum->residuals, &stream->stage);
     free(matrix.c);
     free(sums.sum);
     if (status)

@@ -3,14 +3,15 @@
 #ifndef GALV_EIGEN_H
 #define GALV_EIGEN_H
 
-#include <galv/status.h>
+#include "stage.h"
 
 #include <stddef.h>
 #include <stdint.h>
 
-/* All of n eigenvalues and the leading nev eigenvectors (n x nev) of the lower triangle of a, which
- * is destroyed. */
-galv_status galv_eigen_dense(size_t n, double *a, size_t nev, double *values, double *vectors);
+/* All n eigenvalues and eigenvectors (n x n) of the lower triangle of a, which is destroyed. stage:
+ * told of panels and of blocks of vectors; NULL: nobody listens. */
+galv_status galv_eigen_dense(size_t n, double *a, double *values, double *vectors,
+                             galv_stage *stage);
 
 /* y = A v for a block of b vectors (n x b). */
 typedef struct galv_operator {
@@ -29,6 +30,7 @@ typedef struct galv_krylov {
                         never */
     double trace;
     uint64_t seed;
+    galv_stage *stage; /* told of the pairs converged after each application; NULL: nobody */
     /* Results. */
     size_t found;        /* pairs returned, fewer than nev when the rank is */
     size_t converged;    /* of them, leading pairs within the tolerance */

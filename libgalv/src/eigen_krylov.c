@@ -189,7 +189,7 @@ static galv_status rayleigh_ritz(lanczos *l)
     if (!copy)
         return galv_fail(GALV_ERROR_MEMORY, "projected matrix of order %zu", size);
     memcpy(copy, l->y, size * size * sizeof *copy);
-    galv_status status = galv_eigen_dense(size, copy, size, l->ritz, l->y);
+    galv_status status = galv_eigen_dense(size, copy, l->ritz, l->y, NULL);
     free(copy);
     return status;
 }
@@ -270,6 +270,9 @@ static galv_status iterate(lanczos *l, galv_krylov *run, double *values, double 
             return status;
         run->applications++;
         judge(l, run, coupled, values, residuals);
+        status = galv_stage_report(run->stage, (double)run->converged / (double)run->nev);
+        if (status)
+            return status;
         bool exhausted = l->width == 0 || l->applied == l->n;
         if (exhausted || run->converged >= needed(l, run, run->found) ||
             run->applications == run->most)

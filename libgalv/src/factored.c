@@ -133,7 +133,7 @@ galv_status galv_spectrum_factored(galv_stream *stream, const galv_shape_source 
         status = galv_fail(GALV_ERROR_GEOMETRY, "nothing varies over the %zu samples", samples);
     if (!status)
         status = galv_spectrum_matrix(n, b, spectrum->trace, goal, &spectrum->known,
-                                      &spectrum->values, &v, &spectrum->residuals);
+                                      &spectrum->values, &v, &spectrum->residuals, &stream->stage);
     if (!status) {
         spectrum->vectors = malloc(active * spectrum->known * sizeof *spectrum->vectors);
         if (!spectrum->vectors)

@@ -103,6 +103,9 @@ static galv_status back_to_coordinates(galv_stream *stream, const double *v,
         cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, (blasint)active, (blasint)known,
                     (blasint)count, 1, stream->rows, (blasint)active, v + first, (blasint)samples,
                     1, spectrum->vectors, (blasint)active);
+        status = galv_stage_report(&stream->stage, 1); /* to hear of a cancellation */
+        if (status)
+            return status;
     }
     for (size_t k = 0; k < known; k++)
         cblas_dscal((blasint)active, 1 / sqrt((double)samples * spectrum->values[k]),
@@ -127,7 +130,7 @@ galv_status galv_spectrum_gram(galv_stream *stream, const galv_goal *goal, galv_
         status = centre_gram(samples, gram);
     if (!status)
         status = galv_spectrum_matrix(samples, gram, spectrum->trace, goal, &spectrum->known,
-                                      &spectrum->values, &v, &spectrum->residuals);
+                                      &spectrum->values, &v, &spectrum->residuals, &stream->stage);
     free(gram);
     free(sums.sum);
     if (!status) {

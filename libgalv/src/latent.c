@@ -13,6 +13,8 @@
 /* Samples are dealt to the groups in turn, so that a sorted list of samples is no worse than a
  * shuffled one. */
 enum { GROUPS = 10, ALL_GROUPS = (1 << GROUPS) - 1 };
+/* Of tenfold cross-validation, of four splits in half, and of every other sample. */
+enum { GROUP_SOLUTIONS = GROUPS + 4 + 1 };
 
 typedef struct latent_pass {
     const galv_spectrum *spectrum;
@@ -204,6 +206,8 @@ static galv_status regress(latent_pass *pass, galv_model *model)
 /* Room for the eigenproblem of some of the groups. */
 typedef struct group_work {
     double *matrix, *vectors, *other, *values; /* pairs x pairs each, and 2 pairs */
+    galv_stage *stage;                         /* told of each solution */
+    double solved;
 } group_work;
 
 /* Sums the groups in `mask`: a lower triangle. Returns their energy. */
@@ -223,7 +227,8 @@ static double add_groups(const latent_pass *pass, unsigned mask, double *matrix)
 static galv_status group_eigen(const latent_pass *pass, unsigned mask, group_work *w)
 {
     add_groups(pass, mask, w->matrix);
-    return galv_eigen_dense(pass->pairs, w->matrix, pass->pairs, w->values, w->vectors);
+    galv_status status = galv_eigen_dense(pass->pairs, w->matrix, w->values, w->vectors, NULL);
+    return status ? status : galv_stage_report(w->stage, ++w->solved / (double)GROUP_SOLUTIONS);
 }
 
 /* Energy of the groups outside `mask`, and what of it the leading m modes of the groups inside
@@ -310,7 +315,8 @@ static galv_status estimate_fresh(const latent_pass *pass, size_t m, group_work 
 
 /* The angle is that from the modes of every other sample to those of all. All within the span of
  * the pairs known. */
-static galv_status estimate_confidence(const latent_pass *pass, galv_model *model)
+static galv_status estimate_confidence(const latent_pass *pass, galv_stage *stage,
+                                       galv_model *model)
 {
     size_t pairs = pass->pairs, square = pairs * pairs;
     galv_confidence *result = &model->confidence;
@@ -320,7 +326,7 @@ static galv_status estimate_confidence(const latent_pass *pass, galv_model *mode
     double *room = malloc((3 * square + 2 * pairs) * sizeof *room);
     if (!room)
         return galv_fail(GALV_ERROR_MEMORY, "confidence of %zu pairs", pairs);
-    group_work w = {room, room + square, room + 2 * square, room + 3 * square};
+    group_work w = {room, room + square, room + 2 * square, room + 3 * square, stage, 0};
     galv_status status = estimate_fresh(pass, model->modes, &w, result);
     if (!status)
         status = group_eigen(pass, 0x155, &w);
@@ -385,7 +391,9 @@ galv_status galv_latent_pass(galv_stream *stream, const galv_spectrum *spectrum,
     galv_status status = latent_start(&pass, stream, spectrum, model);
     if (status)
         return status;
+    galv_stage_next(&stream->stage, GALV_STAGE_PROJECTED);
     status = project_samples(&pass, stream, parameters, model);
+    galv_stage_next(&stream->stage, 1);
     if (!status) {
         galv_latent_box(model);
         galv_latent_geometry(spectrum, pass.nappended, pass.places,
@@ -394,7 +402,7 @@ galv_status galv_latent_pass(galv_stream *stream, const galv_spectrum *spectrum,
     if (!status && parameters)
         status = regress(&pass, model);
     if (!status)
-        status = estimate_confidence(&pass, model);
+        status = estimate_confidence(&pass, &stream->stage, model);
     latent_free(&pass);
     return status;
 }

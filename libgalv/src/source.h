@@ -3,7 +3,7 @@
 #ifndef GALV_SOURCE_H
 #define GALV_SOURCE_H
 
-#include <galv/model.h>
+#include "stage.h"
 
 /* Produces rows of a data set that nobody has to hold at once. */
 typedef struct galv_source galv_source;
@@ -57,9 +57,7 @@ typedef struct galv_stream {
     double *packed;      /* block x active, scaled and shifted */
     const double *rows;  /* what readers use: packed, or raw when that is the same */
     double *energy;      /* per row of the block, squared norm of `rows` */
-    galv_progress progress;
-    void *progress_user_data;
-    double progress_done, progress_share;
+    galv_stage stage;
 } galv_stream;
 
 /* weights: one per coordinate, or NULL. */

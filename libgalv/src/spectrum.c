@@ -131,9 +131,9 @@ static void free_pairs(double **values, double **vectors, double **residuals)
 }
 
 static galv_status solve_dense(size_t n, double *a, size_t *known, double *values, double *vectors,
-                               double *residuals)
+                               double *residuals, galv_stage *stage)
 {
-    galv_status status = galv_eigen_dense(n, a, n, values, vectors);
+    galv_status status = galv_eigen_dense(n, a, values, vectors, stage);
     if (status)
         return status;
     *known = numerical_rank(n, n, values);
@@ -143,7 +143,8 @@ static galv_status solve_dense(size_t n, double *a, size_t *known, double *value
 }
 
 static galv_status solve_krylov(size_t n, double *a, size_t nev, uint64_t seed, size_t *known,
-                                double *values, double *vectors, double *residuals)
+                                double *values, double *vectors, double *residuals,
+                                galv_stage *stage)
 {
     size_t room = n * galv_padded(KRYLOV_BLOCK) * sizeof(double);
     matrix m = {.n = n, .a = a, .v = malloc(room), .y = malloc(room)};
@@ -153,7 +154,8 @@ static galv_status solve_krylov(size_t n, double *a, size_t nev, uint64_t seed, 
                        .basis = 3 * nev + 8 * KRYLOV_BLOCK,
                        .most = 400,
                        .tolerance = 1e-12,
-                       .seed = seed};
+                       .seed = seed,
+                       .stage = stage};
     galv_status status = GALV_OK;
     if (m.v && m.y) {
         mirror(n, a);
@@ -176,17 +178,18 @@ static galv_status solve_krylov(size_t n, double *a, size_t nev, uint64_t seed, 
 
 galv_status galv_spectrum_matrix(size_t n, double *a, double trace, const galv_goal *goal,
                                  size_t *known, double **values, double **vectors,
-                                 double **residuals)
+                                 double **residuals, galv_stage *stage)
 {
+    galv_stage_next(stage, GALV_STAGE_SOLVED);
     size_t nev = goal->modes > goal->spectrum ? goal->modes : goal->spectrum;
     for (;; nev *= 2) {
         bool dense = n <= DENSE_ORDER || 3 * nev >= n;
         size_t wanted = dense ? n : nev;
         galv_status status = allocate_pairs(n, wanted, wanted, values, vectors, residuals);
         if (!status)
-            status =
-                dense ? solve_dense(n, a, known, *values, *vectors, *residuals)
-                      : solve_krylov(n, a, nev, goal->seed, known, *values, *vectors, *residuals);
+            status = dense ? solve_dense(n, a, known, *values, *vectors, *residuals, stage)
+                           : solve_krylov(n, a, nev, goal->seed, known, *values, *vectors,
+                                          *residuals, stage);
         if (status) {
             free_pairs(values, vectors, residuals);
             return status;

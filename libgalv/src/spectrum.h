@@ -51,7 +51,7 @@ size_t galv_goal_modes(const galv_goal *goal, size_t known, const double *values
  * only those above rounding are returned. Allocates values, vectors and residuals. */
 galv_status galv_spectrum_matrix(size_t n, double *a, double trace, const galv_goal *goal,
                                  size_t *known, double **values, double **vectors,
-                                 double **residuals);
+                                 double **residuals, galv_stage *stage);
 
 /* Sums over one pass of the stream that every method needs. */
 typedef struct galv_sums {

@@ -15,7 +15,7 @@ galv_status galv_stream_start(galv_stream *stream, galv_source *source, size_t b
                               const double *weights, bool shifted)
 {
     size_t stored = source->stored;
-    *stream = (galv_stream){.source = source, .block = block, .progress_share = 1};
+    *stream = (galv_stream){.source = source, .block = block, .stage = {.to = GALV_STAGE_READ}};
     stream->place = malloc(stored * sizeof *stream->place);
     stream->seen = calloc(stored, 1);
     stream->hidden = malloc(stored * sizeof *stream->hidden);
@@ -175,12 +175,5 @@ galv_status galv_stream_read(galv_stream *stream, size_t first, size_t count)
 
 galv_status galv_stream_report(galv_stream *stream, size_t done)
 {
-    if (!stream->progress)
-        return GALV_OK;
-    double part = (double)done / (double)stream->source->samples;
-    double fraction = stream->progress_done + stream->progress_share * part;
-    if (stream->progress(stream->progress_user_data, fmin(fraction, 1)))
-        return galv_fail(GALV_ERROR_CANCELLED, "cancelled after %zu of %zu samples", done,
-                         stream->source->samples);
-    return GALV_OK;
+    return galv_stage_report(&stream->stage, (double)done / (double)stream->source->samples);
 }
