@@ -255,7 +255,7 @@ static void check_refused(const char *part)
 static void test_foreign(void)
 {
     struct record record;
-    const double newer = 3;
+    const double newer = 4;
     snprintf(path, sizeof path, "%s/text.db", folder);
     FILE *out = fopen(path, "w");
     for (int k = 0; k < 400; k++)
@@ -272,7 +272,7 @@ static void test_foreign(void)
     fresh("newer.db", &record);
     CU_ASSERT_TRUE(record_put_array(&record, "hullopt.format", 1, 1, &newer));
     record_close(&record);
-    check_refused("a newer hullopt wrote it: format 3");
+    check_refused("a newer hullopt wrote it: format 4");
 
     fresh("short.db", &record);
     CU_ASSERT_TRUE(record_put_array(&record, "latent.mean", 1, 1, &newer));

@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 /* The one version of what the names below mean. 1: version 0.1.0, which kept tables of its own. */
-enum { FORMAT = 2 };
+enum { FORMAT = 3 };
 
 static const char FORMAT_NAME[] = "hullopt.format", CONFIGURATION[] = "configuration",
                   SESSIONS[] = "sessions", VERIFICATION[] = "verification", SOLVER[] = "solver";
@@ -350,6 +350,8 @@ static bool check_format(const struct record *record)
         return true;
     if (format > FORMAT)
         return core_fail("a newer hullopt wrote it: format %g, this one knows %d", format, FORMAT);
+    if (format > 1)
+        return core_fail("an older hullopt wrote it: format %g, this one knows %d", format, FORMAT);
     return core_fail("not the record of a hullopt run, or that of version 0.1.0, which this one "
                      "does not read");
 }
