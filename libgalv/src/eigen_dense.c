@@ -7,7 +7,7 @@
 
 /* LAPACK does all of it at once up to this order, in a tenth of a second. */
 enum { AT_ONCE = 512, PANEL = 32, NARROW_PANEL = 16, NARROW_FROM = 4000, COLUMNS = 512 };
-/* Shares of the time: reduction, divide and conquer, vectors (docs/benchmarks.md). */
+/* Shares of the time: reduction, divide and conquer, vectors. */
 static const double REDUCED = 0.45, CONQUERED = 0.7;
 
 static void reverse(double *v, size_t n)

@@ -178,8 +178,8 @@ typedef struct igabem_forces {
                                  length 2 pi/k0 */
     double cw_error;          /**< discretisation error of cw, of either sign: an estimate from what
                                  the same equations give on half the knots, within a factor of 3
-                                 for three meshes out of five, else mostly more (docs/validation.md). NAN
-                                 without a          solve and with a potential */
+                                 for three meshes out of five, else mostly more
+                                 (docs/validation.md). NAN without a solve and with a potential */
     double reserved[7];       /**< 0: room for members of later releases */
 } igabem_forces;
 
