@@ -162,6 +162,8 @@ static void test_refusals(void)
     igabem_hull_free(hull);
     hull = wigley_hull(0.25, 0.0625, 4, 2); /* nu_s 0.45 */
     options = exterior(0.4, 12.0);
+    refused(igabem_solve(hull, &options, &none), IGABEM_ERROR_GEOMETRY, "nu_s 0.447");
+    options.formulation = IGABEM_FORMULATION_DOUBLE_MODEL;
     solution = solve(hull, &options);
     sentence = igabem_solution_warning(solution, NULL, 0);
     CU_ASSERT_PTR_NOT_NULL_FATAL(sentence);
