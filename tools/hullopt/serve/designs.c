@@ -15,6 +15,7 @@ enum { VARIANTS = 8 };
 struct frozen {
     struct variant variant;
     igabem_options solver, speed[CONFIG_FROUDE_MOST];
+    size_t speeds;
     struct evaluation parent;
 };
 
@@ -85,7 +86,7 @@ static const struct evaluation *set_variant(struct worker *w, const struct varia
     struct frozen *f = &w->frozen[is_known ? k : w->n_frozen % VARIANTS];
     if (is_known) {
         p->solver = f->solver;
-        p->speeds = v->n - 1;
+        p->speeds = f->speeds;
         for (size_t i = 0; i < p->speeds; i++)
             p->speed[i] = f->speed[i];
         return &f->parent;
@@ -100,6 +101,7 @@ static const struct evaluation *set_variant(struct worker *w, const struct varia
     }
     f->variant = *v;
     f->solver = p->solver;
+    f->speeds = p->speeds;
     for (size_t i = 0; i < p->speeds; i++)
         f->speed[i] = p->speed[i];
     w->n_frozen++;
