@@ -76,9 +76,9 @@ typedef struct igabem_options {
                              NAN: 0.35 min(1, (Fr/0.35)^2), below Fr 0.35 this is 2.86 U^2/g */
     double stern_blend;   /**< width of the switch there as a share of the length; 0.014 */
     double spectrum_limit; /**< largest t of the Kochin integral when surface-piercing; 20, of which
-                              a formulation with a potential takes 8 at most, a double model 4. Waves
-                              whose phase k0 sqrt(1+t^2) (L + t B) along the hull exceeds 3e4 are
-                              refused (B/L 0.1, t 20: below Fr 0.045) */
+                              a formulation with a potential takes 8 at most, a double model 4.
+                              Waves whose phase k0 sqrt(1+t^2) (L + t B) along the hull exceeds 3e4
+                              are refused (B/L 0.1, t 20: below Fr 0.045) */
 
     double tolerance;         /**< relative error asked of the quadrature; 1e-5 */
     igabem_solver solver;     /**< IGABEM_SOLVER_AUTO */

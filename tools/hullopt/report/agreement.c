@@ -1,6 +1,7 @@
 #include "report/agreement.h"
 
 #include "cli.h"
+
 #include <math.h>
 #include <stdlib.h>
 
