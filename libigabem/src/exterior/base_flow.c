@@ -78,15 +78,17 @@ static igabem_status potential(const struct influence *hull, const struct free_s
                 layer_collocation(hull, i, &point, rows + i * n);
                 status = add_row(layer, transom, &point, work, rim, rows + i * n, &on_hull[i]);
             }
-#pragma omp single
-        {
-            if (status == IGABEM_OK)
-                result = factor_and_solve(n, rows, on_hull);
-        }
+            /* by the calling thread, which is told why */
+#pragma omp master
+        if (status == IGABEM_OK)
+            status = factor_and_solve(n, rows, on_hull);
+#pragma omp barrier
         double *row = malloc(n * sizeof *row);
+        if (!row && status == IGABEM_OK)
+            status = no_memory();
 #pragma omp for schedule(dynamic, 4)
         for (size_t c = 0; c < cells; c++)
-            if (status == IGABEM_OK && row) {
+            if (status == IGABEM_OK) {
                 struct layer_point point = surface->point[c];
                 point.homes = 0;
                 memset(row, 0, n * sizeof *row);
@@ -103,7 +105,7 @@ static igabem_status potential(const struct influence *hull, const struct free_s
             result = status;
     }
     free(rows);
-    return result;
+    return result == IGABEM_ERROR_MEMORY ? no_memory() : result;
 }
 
 /* A value of Phi near a cell. */
