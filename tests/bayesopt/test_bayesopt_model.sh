@@ -11,7 +11,7 @@ serve() {
     rm -f port calls at_once
     "$python" "$here/model_server.py" . "$@" &
     server=$!
-    for i in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
+    for i in $(seq 120); do
         [ -s port ] && break
         sleep 0.25
     done
@@ -95,7 +95,7 @@ YAML
 if [ "$(uname)" = Linux ]; then
     "$tool" run sleep.yaml >out 2>err &
     driver=$!
-    for i in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
+    for i in $(seq 120); do
         [ -s sleeping/000001/pid ] && break
         sleep 0.25
     done
@@ -103,7 +103,7 @@ if [ "$(uname)" = Linux ]; then
     expect 0 "$tool" status sleep.db
     holds "point 1 is held by process $driver"
     kill -9 $driver
-    for i in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20; do
+    for i in $(seq 120); do
         kill -0 "$child" 2>/dev/null || break
         sleep 0.25
     done
