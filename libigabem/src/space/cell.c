@@ -43,15 +43,17 @@ static int nodes_grow(struct nodes *nodes, size_t needed)
     size_t capacity = nodes->capacity ? nodes->capacity : 1024;
     while (capacity < needed)
         capacity *= 2;
-    size_t normal = nodes->with_normals ? 3 : 0;
-    size_t per_node = 4 + nodes->side[0] + nodes->side[1] + normal;
+    size_t normal = nodes->with_normals ? 3 : 0, jet = nodes->with_jets ? 6 : 0;
+    size_t per_node = 4 + nodes->side[0] + nodes->side[1] + normal + jet;
     double *all = malloc(capacity * per_node * sizeof *all);
     if (!all)
         return 0;
-    double *old[7] = {nodes->x, nodes->y, nodes->z, nodes->g, nodes->bu, nodes->bv, nodes->normal};
-    size_t width[7] = {1, 1, 1, 1, nodes->side[0], nodes->side[1], normal};
-    double *at = all, *fresh[7];
-    for (int k = 0; k < 7; k++) {
+    enum { ARRAYS = 8 };
+    double *old[ARRAYS] = {nodes->x,  nodes->y,  nodes->z,      nodes->g,
+                           nodes->bu, nodes->bv, nodes->normal, nodes->jet};
+    size_t width[ARRAYS] = {1, 1, 1, 1, nodes->side[0], nodes->side[1], normal, jet};
+    double *at = all, *fresh[ARRAYS];
+    for (int k = 0; k < ARRAYS; k++) {
         fresh[k] = at;
         if (nodes->n && width[k])
             memcpy(at, old[k], nodes->n * width[k] * sizeof *at);
@@ -65,6 +67,7 @@ static int nodes_grow(struct nodes *nodes, size_t needed)
     nodes->bu = fresh[4];
     nodes->bv = fresh[5];
     nodes->normal = fresh[6];
+    nodes->jet = fresh[7];
     nodes->capacity = capacity;
     return 1;
 }
@@ -353,8 +356,32 @@ void cell_nodes(const struct domain *domain, const double rect[4], const int n[2
                 const double normal[3] = {turn * ax, turn * ay, turn * az};
                 memcpy(nodes->normal + 3 * at, normal, sizeof normal);
             }
+            if (nodes->with_jets) {
+                memcpy(nodes->jet + 6 * at, along == 0 ? da : db, sizeof da);
+                memcpy(nodes->jet + 6 * at + 3, along == 0 ? db : da, sizeof da);
+            }
             memcpy(basis_across + at * side_across, bern, ((size_t)q + 1) * sizeof *bern);
         }
+    }
+}
+
+void nodes_jet(struct nodes *nodes, size_t node, const struct jet *jet)
+{
+    if (!nodes->with_jets)
+        return;
+    memcpy(nodes->jet + 6 * node, jet->ds, sizeof jet->ds);
+    memcpy(nodes->jet + 6 * node + 3, jet->dt, sizeof jet->dt);
+}
+
+void nodes_local(const struct nodes *nodes, const struct element *element, size_t node,
+                 double local[2])
+{
+    for (int d = 0; d < 2; d++) {
+        int p = element->degree[d];
+        const double *basis = (d == 0 ? nodes->bu : nodes->bv) + node * nodes->side[d];
+        local[d] = 0.0;
+        for (int k = 1; k <= p; k++)
+            local[d] += basis[k] * k / p;
     }
 }
 
@@ -372,6 +399,7 @@ void point_node(const struct element *element, double s, double t, double weight
     nodes->z[at] = jet.s[2];
     double size = jet_area(&jet, element->sign, area);
     nodes->g[at] = weight * size / jet.weight;
+    nodes_jet(nodes, at, &jet);
     for (size_t c = 0; c < 3 && nodes->with_normals; c++)
         nodes->normal[3 * at + c] = area[c] / size;
     bernstein(element->degree[0], s, nodes->bu + at * nodes->side[0], NULL);

@@ -60,6 +60,8 @@ struct nodes {
     double *bu, *bv;   /* Bernstein polynomials in the two local parameters */
     bool with_normals; /* set before the first node: fill the next array */
     double *normal;    /* [n][3] outward unit normals; on a waterline nu_x, length, 0 */
+    bool with_jets;    /* likewise */
+    double *jet;       /* [n][6] derivatives of the position along the two local parameters */
     struct block *block;
     bool failed; /* memory ran out: contents incomplete */
 };
@@ -90,6 +92,13 @@ void cell_extent(const struct domain *domain, const double rect[4], struct cell_
 /* Strength of every node for a unit coefficient of each spline function of its element: fills
  * f[node][function], one row length for all, so the elements must have equal degrees. */
 void nodes_fold(const struct nodes *nodes, double *f);
+
+/* Stores the derivatives of a jet, where they are wanted. */
+void nodes_jet(struct nodes *nodes, size_t node, const struct jet *jet);
+
+/* Local parameters of a node, by the linear precision of Bernstein polynomials. */
+void nodes_local(const struct nodes *nodes, const struct element *element, size_t node,
+                 double local[2]);
 
 /* Integrals of `fields` kernels (values k[f * stride + node]) over the blocks against the spline
  * basis, added to rows[f * row_stride + unknown]. */

@@ -382,6 +382,60 @@ igabem_status density_create(const igabem_hull *hull, const struct density_rule 
     return IGABEM_OK;
 }
 
+/* Inserts those knots of `wanted` that *surface has not. */
+static nurbs_status insert_knots(const nurbs_surface *wanted, int d, nurbs_surface **surface)
+{
+    size_t count = nurbs_surface_size(wanted, d) + (size_t)nurbs_surface_degree(wanted, d) + 1;
+    size_t n = nurbs_surface_size(*surface, d) + (size_t)nurbs_surface_degree(*surface, d) + 1;
+    const double *to = nurbs_surface_knots(wanted, d), *from = nurbs_surface_knots(*surface, d);
+    double *missing = malloc(count * sizeof *missing);
+    size_t added = 0, at = 0;
+    if (!missing)
+        return NURBS_ERROR_MEMORY;
+    for (size_t k = 0; k < count; k++)
+        if (at < n && from[at] == to[k])
+            at++;
+        else
+            missing[added++] = to[k];
+    nurbs_status status = NURBS_OK;
+    if (added) {
+        nurbs_surface *result = NULL;
+        status = nurbs_surface_insert(*surface, d, added, missing, &result);
+        status = replace(surface, status, result);
+    }
+    free(missing);
+    return status;
+}
+
+igabem_status density_conform(const struct density *density, size_t index,
+                              const nurbs_surface *surface, nurbs_surface **result)
+{
+    const nurbs_surface *wanted = density->patch[index].surface;
+    nurbs_status status = nurbs_surface_copy(surface, result);
+    for (int d = 0; d < 2 && status == NURBS_OK; d++) {
+        int by = nurbs_surface_degree(wanted, d) - nurbs_surface_degree(*result, d);
+        nurbs_surface *elevated = NULL;
+        if (by > 0) {
+            status = nurbs_surface_elevate(*result, d, by, &elevated);
+            status = replace(result, status, elevated);
+        }
+    }
+    for (int d = 0; d < 2 && status == NURBS_OK; d++)
+        status = insert_knots(wanted, d, result);
+    bool alike = status == NURBS_OK;
+    for (int d = 0; d < 2 && alike; d++)
+        alike = nurbs_surface_size(*result, d) == nurbs_surface_size(wanted, d) &&
+                nurbs_surface_degree(*result, d) == nurbs_surface_degree(wanted, d);
+    if (alike)
+        return IGABEM_OK;
+    nurbs_surface_free(*result);
+    *result = NULL;
+    return status == NURBS_OK
+               ? igabem_fail(IGABEM_ERROR_ARGUMENT,
+                             "patch %zu: other knots than those of the solution's hull", index)
+               : from_nurbs(status, index);
+}
+
 void density_free(struct density *density)
 {
     if (!density)

@@ -51,6 +51,11 @@ igabem_status density_create(const igabem_hull *hull, const struct density_rule 
                              struct density **density);
 void density_free(struct density *density);
 
+/* A surface with the degrees and knots of the hull's patch, its control points any others, in the
+ * representation of the density's surface of that patch. */
+igabem_status density_conform(const struct density *density, size_t patch,
+                              const nurbs_surface *surface, nurbs_surface **result);
+
 /* Coefficients of the fields (fields x n values at the collocation points, each field contiguous)
  * in the basis: replaces values by coefficients. */
 igabem_status density_interpolate(const struct density *density, size_t fields, double *values);

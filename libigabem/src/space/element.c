@@ -269,12 +269,12 @@ static void extract_direction(const struct density_patch *patch, int d, double *
     }
 }
 
-static void fill_element(const struct density_patch *patch, size_t index,
-                         const struct extraction *u, const struct extraction *v, size_t k, size_t l,
-                         double **storage, struct element *element)
+static void fill_element(const struct density_patch *patch, const nurbs_surface *surface,
+                         size_t index, const struct extraction *u, const struct extraction *v,
+                         size_t k, size_t l, double **storage, struct element *element)
 {
     size_t corner = u->density_first * patch->size[1] + v->density_first;
-    size_t shape = u->shape_first * nurbs_surface_size(patch->surface, 1) + v->shape_first;
+    size_t shape = u->shape_first * nurbs_surface_size(surface, 1) + v->shape_first;
     const double *extraction[2] = {u->shape, v->shape};
     *element = (struct element){
         .patch = index,
@@ -289,7 +289,7 @@ static void fill_element(const struct density_patch *patch, size_t index,
         .rational = patch->weights != NULL,
         .sign = patch->hull.sign,
     };
-    bezier_net(element, patch->surface, shape, extraction, *storage);
+    bezier_net(element, surface, shape, extraction, *storage);
     bounding_box(element);
     *storage += 4 * (size_t)(patch->degree[0] + 1) * (size_t)(patch->degree[1] + 1);
 }
@@ -306,8 +306,8 @@ static void panel_range(const struct density_patch *patch, int d, size_t panel, 
         range[1]++;
 }
 
-static igabem_status fill_patch(const struct density *density, size_t index, struct mesh *mesh,
-                                double **storage)
+static igabem_status fill_patch(const struct density *density, const nurbs_surface *surface,
+                                size_t index, struct mesh *mesh, double **storage)
 {
     const struct density_patch *patch = &density->patch[index];
     struct extraction *u = malloc((patch->spans[0] + patch->spans[1]) * sizeof *u);
@@ -328,7 +328,7 @@ static igabem_status fill_patch(const struct density *density, size_t index, str
                 .upper = {patch->panel_breaks[0][a + 1], patch->panel_breaks[1][b + 1]}};
             for (size_t k = range_u[0]; k < range_u[1]; k++)
                 for (size_t l = range_v[0]; l < range_v[1]; l++)
-                    fill_element(patch, index, &u[k], &v[l], k, l, storage,
+                    fill_element(patch, surface, index, &u[k], &v[l], k, l, storage,
                                  &mesh->element[mesh->n++]);
             panel->count = mesh->n - panel->first;
         }
@@ -337,6 +337,12 @@ static igabem_status fill_patch(const struct density *density, size_t index, str
 }
 
 igabem_status mesh_create(const struct density *density, struct mesh **result)
+{
+    return mesh_create_on(density, NULL, result);
+}
+
+igabem_status mesh_create_on(const struct density *density, const nurbs_surface *const *surface,
+                             struct mesh **result)
 {
     *result = NULL;
     size_t elements = 0, panels = 0, doubles = 0;
@@ -370,7 +376,8 @@ igabem_status mesh_create(const struct density *density, struct mesh **result)
         status = igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu elements", elements);
     double *storage = mesh->storage;
     for (size_t k = 0; k < density->patches && status == IGABEM_OK; k++)
-        status = fill_patch(density, k, mesh, &storage);
+        status = fill_patch(density, surface ? surface[k] : density->patch[k].surface, k, mesh,
+                            &storage);
     if (status != IGABEM_OK) {
         mesh_free(mesh);
         return status;

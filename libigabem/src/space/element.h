@@ -43,6 +43,10 @@ struct mesh {
 };
 
 igabem_status mesh_create(const struct density *density, struct mesh **mesh);
+/* The same elements on other surfaces, one for each patch, of the degrees, knots and weights of
+ * those of the density (density_conform). */
+igabem_status mesh_create_on(const struct density *density, const nurbs_surface *const *surface,
+                             struct mesh **mesh);
 void mesh_free(struct mesh *mesh);
 
 /* Bernstein polynomials of degree p at s, and their derivatives if not NULL. */

@@ -139,6 +139,7 @@ static void ray_nodes(const struct element *element, const struct ray *ray, cons
         nodes->z[n] = jet.s[2];
         double size = jet_area(&jet, element->sign, area);
         nodes->g[n] = weight * gauss->weight[order][i] * lambda * size / jet.weight;
+        nodes_jet(nodes, n, &jet);
         for (size_t c = 0; c < 3 && nodes->with_normals; c++)
             nodes->normal[3 * n + c] = area[c] / size;
         bernstein(element->degree[0], at[0] + lambda * direction[0], nodes->bu + n * nodes->side[0],
