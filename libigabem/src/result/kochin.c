@@ -15,8 +15,7 @@
  */
 static const double error_share = 0.06;
 
-/* What turns the resistance integral into C_w. */
-static double coefficient(const igabem_solution *solution)
+double kochin_coefficient(const igabem_solution *solution)
 {
     double area = solution->info.hydrostatics.wetted_area, speed = solution->speed;
     return solution->k0 * solution->k0 / (PI * speed * speed * area);
@@ -53,7 +52,7 @@ igabem_status kochin_resistance(const igabem_solution *solution, struct kochin_r
         sources_free(sources[l]);
     if (status)
         return status;
-    double scale = coefficient(solution);
+    double scale = kochin_coefficient(solution);
     result->cw = scale * sum[0].total;
     result->share_beyond_cutoff = sum[0].total > 0 ? sum[0].beyond / sum[0].total : 0.0;
     if (solution->sigma_change)
@@ -65,32 +64,38 @@ igabem_status kochin_resistance(const igabem_solution *solution, struct kochin_r
     return IGABEM_OK;
 }
 
+igabem_status kochin_check_angles(const igabem_solution *solution, size_t n, const double *t,
+                                  double *largest)
+{
+    if (!solution->waves)
+        return igabem_fail(IGABEM_ERROR_ARGUMENT,
+                           "this solution has no free surface, expected the Kelvin kernel");
+    *largest = 0.0;
+    for (size_t i = 0; i < n; i++) {
+        if (!isfinite(t[i]))
+            return igabem_fail(IGABEM_ERROR_ARGUMENT, "wave angle %zu is %g, expected a number", i,
+                               t[i]);
+        *largest = fmax(*largest, fabs(t[i]));
+    }
+    double length, beam;
+    radiation_extent(solution, &length, &beam);
+    return resolution_check_angle(solution->k0, length, beam, *largest, "wave angle");
+}
+
 igabem_status igabem_kochin(const igabem_solution *solution, size_t n, const double *t,
                             double h[][2], double *dcw)
 {
     if (!solution || (n && (!t || !h)))
         return igabem_fail(IGABEM_ERROR_ARGUMENT, "NULL argument of igabem_kochin");
-    if (!solution->waves)
-        return igabem_fail(IGABEM_ERROR_ARGUMENT,
-                           "this solution has no free surface, expected the Kelvin kernel");
-    double largest = 0.0;
-    for (size_t i = 0; i < n; i++) {
-        if (!isfinite(t[i]))
-            return igabem_fail(IGABEM_ERROR_ARGUMENT, "wave angle %zu is %g, expected a number", i,
-                               t[i]);
-        largest = fmax(largest, fabs(t[i]));
-    }
-    double length, beam;
-    radiation_extent(solution, &length, &beam);
-    igabem_status status =
-        resolution_check_angle(solution->k0, length, beam, largest, "wave angle");
+    double largest;
+    igabem_status status = kochin_check_angles(solution, n, t, &largest);
     if (status)
         return status;
     struct sources *sources;
     status = radiation_sources(solution, RADIATION_AS_SOLVED, largest, 0, NULL, &sources);
     if (status)
         return status;
-    double scale = coefficient(solution);
+    double scale = kochin_coefficient(solution);
 #pragma omp parallel for schedule(dynamic, 8)
     for (size_t i = 0; i < n; i++) {
         amplitude(sources, solution->k0, t[i], h[i]);

@@ -13,4 +13,12 @@ struct kochin_resistance {
 
 igabem_status kochin_resistance(const igabem_solution *solution, struct kochin_resistance *result);
 
+/* What turns the resistance integral, over both signs of t, into C_w. */
+double kochin_coefficient(const igabem_solution *solution);
+
+/* Refuses angles that are no numbers or whose waves are not resolved, and a solution without waves;
+ * fills *largest, their magnitude. */
+igabem_status kochin_check_angles(const igabem_solution *solution, size_t n, const double *t,
+                                  double *largest);
+
 #endif
