@@ -55,6 +55,7 @@ module igabem_c
     logical(c_bool) :: centre_plane
     logical(c_bool) :: potential
     logical(c_bool) :: double_model
+    logical(c_bool) :: tangents
   end type
 
   type, bind(c) :: nurbs_hydrostatics
@@ -1038,6 +1039,40 @@ module igabem_c
       integer(c_size_t), value :: n
       type(igabem_pressure_sample), intent(in), optional :: sample(*)
       type(igabem_pressure_sample), intent(inout), optional :: gradient(*)
+    end function
+    integer(c_int) function igabem_tangent_create(hull, solution, n, move, tangent) bind(c)
+      import
+      type(c_ptr), value :: hull
+      type(c_ptr), value :: solution
+      integer(c_size_t), value :: n
+      real(c_double), intent(in), optional :: move(*)
+      type(c_ptr), intent(inout) :: tangent
+    end function
+    subroutine igabem_tangent_free(tangent) bind(c)
+      import
+      type(c_ptr), value :: tangent
+    end subroutine
+    integer(c_int) function igabem_tangent_kochin(tangent, m, t, dh) bind(c)
+      import
+      type(c_ptr), value :: tangent
+      integer(c_size_t), value :: m
+      real(c_double), intent(in), optional :: t(*)
+      real(c_double), intent(inout), optional :: dh(2, *)
+    end function
+    integer(c_int) function igabem_tangent_residuals(tangent, dr) bind(c)
+      import
+      type(c_ptr), value :: tangent
+      real(c_double), intent(inout), optional :: dr(*)
+    end function
+    integer(c_int) function igabem_tangent_cw(tangent, dcw) bind(c)
+      import
+      type(c_ptr), value :: tangent
+      real(c_double), intent(inout), optional :: dcw(*)
+    end function
+    integer(c_int) function igabem_tangent_wetted_area(tangent, darea) bind(c)
+      import
+      type(c_ptr), value :: tangent
+      real(c_double), intent(inout), optional :: darea(*)
     end function
     integer(c_int) function nurbs_curve_create(degree, n, knots, points, weights, curve) bind(c)
       import

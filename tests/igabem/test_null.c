@@ -148,6 +148,40 @@ static void results(void)
     igabem_hull_free(hull);
 }
 
+static void tangents(void)
+{
+    igabem_hull *hull = wigley_hull(0.1, 0.0625, 1, 1);
+    igabem_options options;
+    igabem_solution *solution = NULL;
+    igabem_tangent *tangent = NULL;
+    double h[1][2];
+    static const double still[3 * 64] = {0.0};
+    igabem_options_init(&options);
+    options.froude = 0.35;
+    options.refine = 1;
+    options.formulation = IGABEM_FORMULATION_HOGNER;
+    CU_ASSERT_EQUAL_FATAL(igabem_solve(hull, &options, &solution), IGABEM_OK);
+    REFUSED(igabem_tangent_create(NULL, solution, 1, still, &tangent));
+    REFUSED(igabem_tangent_create(hull, NULL, 1, still, &tangent));
+    REFUSED(igabem_tangent_create(hull, solution, 0, still, &tangent));
+    REFUSED(igabem_tangent_create(hull, solution, 1, NULL, &tangent));
+    REFUSED(igabem_tangent_create(hull, solution, 1, still, NULL));
+    CU_ASSERT_EQUAL_FATAL(igabem_tangent_create(hull, solution, 1, still, &tangent), IGABEM_OK);
+    REFUSED(igabem_tangent_kochin(NULL, 1, one, h));
+    REFUSED(igabem_tangent_kochin(tangent, 1, NULL, h));
+    REFUSED(igabem_tangent_kochin(tangent, 1, one, NULL));
+    REFUSED(igabem_tangent_residuals(NULL, out));
+    REFUSED(igabem_tangent_residuals(tangent, NULL));
+    REFUSED(igabem_tangent_cw(NULL, out));
+    REFUSED(igabem_tangent_cw(tangent, NULL));
+    REFUSED(igabem_tangent_wetted_area(NULL, out));
+    REFUSED(igabem_tangent_wetted_area(tangent, NULL));
+    igabem_tangent_free(tangent);
+    igabem_tangent_free(NULL);
+    igabem_solution_free(solution);
+    igabem_hull_free(hull);
+}
+
 static void derived(void)
 {
     igabem_options options;
@@ -190,6 +224,7 @@ static const struct check_case cases[] = {
     {"hulls", hulls},
     {"solving", solving},
     {"results", results},
+    {"tangents", tangents},
     {"derived figures", derived},
     {"names", names},
 };

@@ -15,6 +15,7 @@
 #include <igabem/residual.h>
 #include <igabem/solve.h>
 #include <igabem/status.h>
+#include <igabem/tangent.h>
 #include <igabem/version.h>
 
 #endif

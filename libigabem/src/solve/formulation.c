@@ -35,12 +35,14 @@ static const igabem_formulation_row table[] = {
     /* Hogner (1932). */
     [IGABEM_FORMULATION_HOGNER] = {.name = "hogner",
                                    .sentence = "sigma = U n_x on the hull (no solve)",
-                                   .line_term = true},
+                                   .line_term = true,
+                                   .tangents = true},
     /* Michell (1898). */
     [IGABEM_FORMULATION_MICHELL] = {.name = "michell",
                                     .sentence =
                                         "thin ship: the same sources moved to the centre plane",
-                                    .centre_plane = true},
+                                    .centre_plane = true,
+                                    .tangents = true},
     [IGABEM_FORMULATION_EXTERIOR] = {.name = "exterior",
                                      .sentence =
                                          "potential on hull and free surface outside of it, "

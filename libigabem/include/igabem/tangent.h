@@ -1,0 +1,67 @@
+/**
+ * @file tangent.h
+ * Derivatives of a solution along fields of moves of the hull's control points, the density folded
+ * in: of the Kochin function, of C_w and of its residuals. They are those of the solution as it is
+ * computed, by the same rules of quadrature, which stay where they are on the hull:
+ *
+ *     H' = E sigma' + E' sigma
+ *
+ * (docs/theory.md, section 15).
+ */
+#ifndef IGABEM_TANGENT_H
+#define IGABEM_TANGENT_H
+
+#include <igabem/residual.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** The derivatives of one solution along some fields. */
+typedef struct igabem_tangent igabem_tangent;
+
+/** Derivatives of a solution along n fields, for the formulations that have them (`tangents` of
+ * igabem_formulation_info()), on half hulls.
+ *
+ * Along a field the hull moves athwartships: its control points by e times the field, e -> 0, while
+ * weights, knots and options stay as they are in the solution, also those that
+ * igabem_options_freeze() would choose anew on the moved hull. Such moves leave the length, and
+ * with it the speed, alone. The wetted area that coefficients divide by moves too. Patches that
+ * meet have to move together along their common edge, which is not checked.
+ * @param hull     that of the solution, borrowed for the call
+ * @param solution borrowed until the tangent is freed
+ * @param n        fields, at least 1
+ * @param move     [n][points][3], m for a unit of e: for each field the moves of the control points
+ *                 of all patches of the hull, patch by patch, u slow and v fast. x and z are 0, and
+ *                 so is y of points in the centre plane; points that coincide on a collapsed edge
+ *                 move alike
+ * @param[out] tangent created, to be given to igabem_tangent_free()
+ *
+ * Errors: IGABEM_ERROR_ARGUMENT: a formulation without tangents, a hull given whole, another hull
+ * than that of the solution, a move that is no number or not allowed. */
+IGABEM_API igabem_status igabem_tangent_create(const igabem_hull *hull,
+                                               const igabem_solution *solution, size_t n,
+                                               const double *move, igabem_tangent **tangent);
+/** Frees a tangent; takes NULL. */
+IGABEM_API void igabem_tangent_free(igabem_tangent *tangent);
+
+/** Derivatives of igabem_kochin() at m wave angles t = tan(theta): fills dh[n][m][2], m^3/s per
+ * unit of e. */
+IGABEM_API igabem_status igabem_tangent_kochin(const igabem_tangent *tangent, size_t m,
+                                               const double *t, double dh[][2]);
+
+/** Derivatives of igabem_wave_residuals(): fills dr[n][IGABEM_WAVE_RESIDUALS]. */
+IGABEM_API igabem_status igabem_tangent_residuals(const igabem_tangent *tangent, double *dr);
+
+/** Derivatives of C_w as igabem_forces_compute() gives it: by the adaptive rule of the Kochin
+ * function, not by the residuals. Fills dcw[n]. */
+IGABEM_API igabem_status igabem_tangent_cw(const igabem_tangent *tangent, double *dcw);
+
+/** Derivatives of the wetted area of both sides: fills darea[n], m^2. */
+IGABEM_API igabem_status igabem_tangent_wetted_area(const igabem_tangent *tangent, double *darea);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

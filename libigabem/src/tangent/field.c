@@ -1,0 +1,275 @@
+#include "tangent/field.h"
+
+#include "core/error.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Moves below this share of the largest count as none, distances below this share of the hull's
+ * extent as rounding. */
+static const double rounding = 1e-9;
+
+static const char axis_names[] = "xyz";
+
+static size_t patch_points(const nurbs_surface *surface)
+{
+    return nurbs_surface_size(surface, 0) * nurbs_surface_size(surface, 1);
+}
+
+static size_t hull_points(const igabem_hull *hull)
+{
+    size_t points = 0;
+    for (size_t p = 0; p < hull->n; p++)
+        points += patch_points(hull->patches[p].surface);
+    return points;
+}
+
+/* Control point k of an edge: its index in the net; *count is their number. */
+static size_t edge_point(const nurbs_surface *surface, int edge, size_t k, size_t *count)
+{
+    size_t nu = nurbs_surface_size(surface, 0), nv = nurbs_surface_size(surface, 1);
+    *count = edge < HULL_V0 ? nv : nu;
+    switch (edge) {
+    case HULL_U0:
+        return k;
+    case HULL_U1:
+        return (nu - 1) * nv + k;
+    case HULL_V0:
+        return k * nv;
+    default:
+        return k * nv + nv - 1;
+    }
+}
+
+static igabem_status check_edge(const igabem_hull *hull, size_t p, int edge, double largest,
+                                const double *move)
+{
+    const struct hull_patch *patch = &hull->patches[p];
+    enum hull_edge kind = patch->edge[edge];
+    const double *point = nurbs_surface_points(patch->surface);
+    size_t first = edge_point(patch->surface, edge, 0, &(size_t){0}), count = 1;
+    for (size_t k = 0; k < count; k++) {
+        size_t at = edge_point(patch->surface, edge, k, &count);
+        double y = move[3 * at + 1];
+        bool centre =
+            kind == HULL_EDGE_CENTRE ||
+            (kind == HULL_EDGE_COLLAPSED && fabs(point[3 * at + 1]) <= rounding * hull->extent);
+        if (centre && fabs(y) > rounding * largest)
+            return igabem_fail(IGABEM_ERROR_ARGUMENT,
+                               "patch %zu: control point %zu lies in the centre plane and moves by "
+                               "%g m along y, expected 0",
+                               p, at, y);
+        if (kind == HULL_EDGE_COLLAPSED && fabs(y - move[3 * first + 1]) > rounding * largest)
+            return igabem_fail(IGABEM_ERROR_ARGUMENT,
+                               "patch %zu: control points %zu and %zu coincide and move by %g and "
+                               "%g m along y, expected the same move",
+                               p, first, at, move[3 * first + 1], y);
+    }
+    return IGABEM_OK;
+}
+
+/* One field. */
+static igabem_status check_move(const igabem_hull *hull, const double *move)
+{
+    double largest = 0.0;
+    size_t points = hull_points(hull), base = 0;
+    for (size_t k = 0; k < points; k++)
+        largest = fmax(largest, fabs(move[3 * k + 1]));
+    for (size_t p = 0; p < hull->n; p++) {
+        size_t count = patch_points(hull->patches[p].surface);
+        for (size_t k = 0; k < 3 * count; k++) {
+            double value = move[3 * base + k];
+            if (!isfinite(value) || (k % 3 != 1 && fabs(value) > rounding * largest))
+                return igabem_fail(IGABEM_ERROR_ARGUMENT,
+                                   "patch %zu: control point %zu moves by %g m along %c, expected "
+                                   "%s",
+                                   p, k / 3, value, axis_names[k % 3],
+                                   k % 3 == 1 ? "a number" : "0: hulls move along y");
+        }
+        for (int e = 0; e < HULL_EDGES; e++) {
+            igabem_status status = check_edge(hull, p, e, largest, move + 3 * base);
+            if (status != IGABEM_OK)
+                return status;
+        }
+        base += count;
+    }
+    return IGABEM_OK;
+}
+
+/* The patches of the hull with the y moves of fields first, first + 1 and first + 2 as coordinates.
+ */
+static igabem_status move_surfaces(const igabem_hull *hull, const struct density *density, size_t n,
+                                   size_t first, const double *move, nurbs_surface **surface)
+{
+    size_t points = hull_points(hull), base = 0;
+    double *coordinates = malloc(3 * points * sizeof *coordinates);
+    igabem_status status =
+        coordinates ? IGABEM_OK
+                    : igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu moves", points);
+    for (size_t p = 0; p < hull->n && status == IGABEM_OK; p++) {
+        const nurbs_surface *own = hull->patches[p].surface;
+        const int degree[2] = {nurbs_surface_degree(own, 0), nurbs_surface_degree(own, 1)};
+        const size_t size[2] = {nurbs_surface_size(own, 0), nurbs_surface_size(own, 1)};
+        size_t count = size[0] * size[1];
+        for (size_t k = 0; k < count; k++)
+            for (size_t c = 0; c < 3; c++)
+                coordinates[3 * k + c] =
+                    first + c < n ? move[3 * (points * (first + c) + base + k) + 1] : 0.0;
+        nurbs_surface *moves = NULL;
+        if (nurbs_surface_create(degree, size, nurbs_surface_knots(own, 0),
+                                 nurbs_surface_knots(own, 1), coordinates,
+                                 nurbs_surface_weights(own), &moves) != NURBS_OK)
+            status = hull_nurbs_fail(NURBS_ERROR_GEOMETRY, "moves of the control points");
+        else
+            status = density_conform(density, p, moves, &surface[p]);
+        nurbs_surface_free(moves);
+        base += count;
+    }
+    free(coordinates);
+    return status;
+}
+
+static void take_nets(const struct mesh *from, size_t first, struct field *field)
+{
+    for (size_t e = 0; e < from->n; e++) {
+        const struct element *element = &from->element[e];
+        size_t count = (size_t)(element->degree[0] + 1) * (size_t)(element->degree[1] + 1);
+        for (size_t k = 0; k < count; k++)
+            for (size_t c = 0; c < 3 && first + c < field->n; c++)
+                field->net[field->offset[e] + k * field->n + first + c] = element->net[4 * k + c];
+    }
+}
+
+/* The hull is told from another by its surfaces. */
+static igabem_status check_hull(const igabem_hull *hull, const struct density *density)
+{
+    if (hull->n != density->patches)
+        return igabem_fail(IGABEM_ERROR_ARGUMENT,
+                           "a hull of %zu patches, that of the solution has %zu", hull->n,
+                           density->patches);
+    for (size_t p = 0; p < hull->n; p++) {
+        nurbs_surface *surface;
+        igabem_status status = density_conform(density, p, hull->patches[p].surface, &surface);
+        if (status != IGABEM_OK)
+            return status;
+        const double *a = nurbs_surface_points(surface),
+                     *b = nurbs_surface_points(density->patch[p].surface);
+        double difference = 0.0;
+        for (size_t k = 0; k < 3 * patch_points(surface); k++)
+            difference = fmax(difference, fabs(a[k] - b[k]));
+        nurbs_surface_free(surface);
+        if (!(difference <= rounding * hull->extent))
+            return igabem_fail(IGABEM_ERROR_ARGUMENT,
+                               "patch %zu is up to %g m away from that of the solution's hull", p,
+                               difference);
+    }
+    return IGABEM_OK;
+}
+
+igabem_status field_create(const igabem_hull *hull, const struct density *density,
+                           const struct mesh *mesh, size_t n, const double *move,
+                           struct field **result)
+{
+    *result = NULL;
+    igabem_status status = check_hull(hull, density);
+    for (size_t k = 0; k < n && status == IGABEM_OK; k++)
+        status = check_move(hull, move + 3 * hull_points(hull) * k);
+    if (status != IGABEM_OK)
+        return status;
+    struct field *field = calloc(1, sizeof *field);
+    nurbs_surface **surface = calloc(hull->n, sizeof *surface);
+    size_t total = 0;
+    if (field)
+        field->offset = malloc(mesh->n * sizeof *field->offset);
+    for (size_t e = 0; e < mesh->n && field && field->offset; e++) {
+        const struct element *element = &mesh->element[e];
+        field->offset[e] = total;
+        total += (size_t)(element->degree[0] + 1) * (size_t)(element->degree[1] + 1) * n;
+    }
+    if (field)
+        field->net = malloc(total * sizeof *field->net);
+    if (!field || !surface || !field->offset || !field->net)
+        status = igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu fields", n);
+    for (size_t first = 0; first < n && status == IGABEM_OK; first += 3) {
+        struct mesh *moves = NULL;
+        field->n = n;
+        field->mesh = mesh;
+        status = move_surfaces(hull, density, n, first, move, surface);
+        if (status == IGABEM_OK)
+            status = mesh_create_on(density, (const nurbs_surface *const *)surface, &moves);
+        if (status == IGABEM_OK)
+            take_nets(moves, first, field);
+        mesh_free(moves);
+        for (size_t p = 0; p < hull->n; p++) {
+            nurbs_surface_free(surface[p]);
+            surface[p] = NULL;
+        }
+    }
+    free(surface);
+    if (status != IGABEM_OK) {
+        field_free(field);
+        return status;
+    }
+    *result = field;
+    return IGABEM_OK;
+}
+
+void field_free(struct field *field)
+{
+    if (!field)
+        return;
+    free(field->offset);
+    free(field->net);
+    free(field);
+}
+
+const double *field_net(const struct field *field, const struct element *element)
+{
+    return field->net + field->offset[element - field->mesh->element];
+}
+
+void field_at(const struct field *field, const struct element *element, const double local[2],
+              double *v)
+{
+    size_t n = field->n, m = (size_t)element->degree[1] + 1;
+    size_t count = ((size_t)element->degree[0] + 1) * m;
+    double bu[ELEMENT_SIDE], du[ELEMENT_SIDE], bv[ELEMENT_SIDE], dv[ELEMENT_SIDE];
+    bernstein(element->degree[0], local[0], bu, du);
+    bernstein(element->degree[1], local[1], bv, dv);
+    const double *net = field_net(field, element);
+    double weight[3] = {0.0, 0.0, 0.0};
+    memset(v, 0, 3 * n * sizeof *v);
+    for (size_t k = 0; k < count; k++, net += n) {
+        size_t a = k / m, b = k % m;
+        const double basis[3] = {bu[a] * bv[b], du[a] * bv[b], bu[a] * dv[b]};
+        for (size_t d = 0; d < 3; d++) {
+            weight[d] += basis[d] * element->net[4 * k + 3];
+            for (size_t f = 0; f < n; f++)
+                v[d * n + f] += basis[d] * net[f];
+        }
+    }
+    for (size_t f = 0; f < n; f++) {
+        v[f] /= weight[0];
+        for (size_t d = 1; d < 3; d++)
+            v[d * n + f] = (v[d * n + f] - v[f] * weight[d]) / weight[0];
+    }
+}
+
+void area_change(const double ds[3], const double dt[3], double sign, struct area_change *change)
+{
+    const double area[3] = {sign * (ds[1] * dt[2] - ds[2] * dt[1]),
+                            sign * (ds[2] * dt[0] - ds[0] * dt[2]),
+                            sign * (ds[0] * dt[1] - ds[1] * dt[0])};
+    const double vector[2][3] = {{sign * dt[2], 0.0, -sign * dt[0]},
+                                 {-sign * ds[2], 0.0, sign * ds[0]}};
+    memcpy(change->area, area, sizeof area);
+    memcpy(change->vector, vector, sizeof vector);
+    change->size = sqrt(area[0] * area[0] + area[1] * area[1] + area[2] * area[2]);
+    for (int d = 0; d < 2; d++) {
+        change->length[d] = change->size > 0
+                                ? (area[0] * vector[d][0] + area[2] * vector[d][2]) / change->size
+                                : 0.0;
+        change->inflow[d] = vector[d][0];
+    }
+}

@@ -1,0 +1,37 @@
+/* Fields of moves of a hull along y, as splines over the elements of a density. With S the position
+ * and V the move along y at the same parameters, a = S_s x S_t changes by
+ *     a' = V_s (e_y x S_t) + V_t (S_s x e_y). */
+#ifndef FIELD_H
+#define FIELD_H
+
+#include "space/cell.h"
+
+struct field {
+    size_t n; /* fields */
+    const struct mesh *mesh;
+    size_t *offset; /* [elements] */
+    double *net;    /* of an element [pu+1][pv+1][n] from its offset on: weight times V */
+};
+
+/* move[n][points][3] of all patches of the hull; refuses what is not allowed. */
+igabem_status field_create(const igabem_hull *hull, const struct density *density,
+                           const struct mesh *mesh, size_t n, const double *move,
+                           struct field **field);
+void field_free(struct field *field);
+
+const double *field_net(const struct field *field, const struct element *element);
+
+/* V, V_s and V_t at local parameters of an element: fills v[3][n]. */
+void field_at(const struct field *field, const struct element *element, const double local[2],
+              double *v);
+
+/* How the area vector turned outwards, its length and its x component change: by along[0] V_s +
+ * along[1] V_t. */
+struct area_change {
+    double area[3], size;                      /* the vector itself */
+    double vector[2][3], length[2], inflow[2]; /* inflow: of the x component */
+};
+
+void area_change(const double ds[3], const double dt[3], double sign, struct area_change *change);
+
+#endif

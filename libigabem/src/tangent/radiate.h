@@ -1,0 +1,28 @@
+/* Derivatives of the Kochin function: what the solution's point sources radiate while they and
+ * their places change. */
+#ifndef RADIATE_H
+#define RADIATE_H
+
+#include "tangent/tangent.h"
+
+/* Point sources of one kind: surface by increasing depth, waterline. */
+struct carriers {
+    size_t n;
+    double *x, *y, *z; /* z of the waterline: NULL */
+    double *change;    /* [n][2][fields]: of the strength q; q times the move along y */
+};
+
+struct radiators {
+    size_t fields;
+    struct carriers surface, line;
+};
+
+/* Sources fine enough for wave angles up to t_max. */
+igabem_status radiators_create(const igabem_tangent *tangent, double t_max,
+                               struct radiators **radiators);
+void radiators_free(struct radiators *radiators);
+
+/* Fills dh[fields][2] at wave angle t. */
+void radiators_sum(const struct radiators *radiators, double k0, double t, double (*dh)[2]);
+
+#endif

@@ -1,0 +1,25 @@
+/* What the derivatives of a solution are made of. */
+#ifndef TANGENT_H
+#define TANGENT_H
+
+#include "solve/solution.h"
+#include "tangent/field.h"
+
+#include <igabem/tangent.h>
+
+struct igabem_tangent {
+    const igabem_solution *solution; /* borrowed */
+    struct mesh *mesh;               /* of its density */
+    struct field *field;
+    double *area;     /* [n] of the wetted area of both sides, m^2 */
+    double *normal;   /* [n][unknowns][3] of the unit normals at the collocation points */
+    double *sigma;    /* [n][unknowns] coefficients of the density */
+    double *velocity; /* [n][3][unknowns] coefficients; NULL: the solution has no velocity */
+};
+
+igabem_status tangent_no_memory(size_t fields);
+
+/* tangent->sigma and tangent->velocity of a formulation that solves. */
+igabem_status tangent_solve(igabem_tangent *tangent);
+
+#endif

@@ -1,0 +1,301 @@
+/* Tangents against central differences of whole solves on moved hulls. */
+#include "check.h"
+#include "hulls.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { FIELDS = 3, ANGLES = 7 };
+static const double angles[ANGLES] = {0.0, 0.3, 0.7, 1.1, 1.9, 3.0, 5.0};
+
+struct body {
+    nurbs_surface *surface;
+    igabem_hull *hull;
+    igabem_options options; /* frozen on it */
+    size_t points;
+    double *move; /* [FIELDS][points][3] */
+};
+
+/* y times smooth functions of the place: keel, stem and centre plane stay. */
+static void fill_moves(struct body *body)
+{
+    const double *point = nurbs_surface_points(body->surface);
+    body->points = nurbs_surface_size(body->surface, 0) * nurbs_surface_size(body->surface, 1);
+    body->move = calloc(3 * FIELDS * body->points, sizeof *body->move);
+    CU_ASSERT_FATAL(body->move != NULL);
+    for (size_t k = 0; k < body->points; k++) {
+        double x = point[3 * k], y = point[3 * k + 1], z = point[3 * k + 2];
+        const double factor[FIELDS] = {1.0, sin(5.0 * x + 0.3) + 3.0 * z,
+                                       cos(9.0 * x) * (1.0 + 20.0 * z * z)};
+        for (size_t f = 0; f < FIELDS; f++)
+            body->move[3 * (f * body->points + k) + 1] = y * factor[f];
+    }
+}
+
+static void make_body(nurbs_surface *surface, igabem_formulation formulation, double tolerance,
+                      struct body *body)
+{
+    const nurbs_surface *patch = surface;
+    CU_ASSERT_FATAL(surface != NULL);
+    *body = (struct body){.surface = surface};
+    CU_ASSERT_EQUAL_FATAL(igabem_hull_create(&patch, 1, IGABEM_SYMMETRIC, &body->hull), IGABEM_OK);
+    igabem_options_init(&body->options);
+    body->options.froude = 0.35;
+    body->options.formulation = formulation;
+    body->options.tolerance = tolerance;
+    body->options.refine = 1;
+    body->options.spectrum_limit = 5.0; /* shorter waves would want shorter steps */
+    CU_ASSERT_EQUAL_FATAL(igabem_options_freeze(body->hull, &body->options), IGABEM_OK);
+    fill_moves(body);
+}
+
+static void free_body(struct body *body)
+{
+    igabem_hull_free(body->hull);
+    nurbs_surface_free(body->surface);
+    free(body->move);
+}
+
+static igabem_solution *solve(const struct body *body, const igabem_hull *hull)
+{
+    igabem_solution *solution = NULL;
+    CU_ASSERT_EQUAL_FATAL(igabem_solve(hull, &body->options, &solution), IGABEM_OK);
+    return solution;
+}
+
+/* The solution on the hull moved by step times the sum of the fields with these weights. */
+static igabem_solution *solve_moved(const struct body *body, const double weight[FIELDS],
+                                    double step)
+{
+    const nurbs_surface *own = body->surface;
+    const int degree[2] = {nurbs_surface_degree(own, 0), nurbs_surface_degree(own, 1)};
+    const size_t size[2] = {nurbs_surface_size(own, 0), nurbs_surface_size(own, 1)};
+    double *point = malloc(3 * body->points * sizeof *point);
+    CU_ASSERT_FATAL(point != NULL);
+    memcpy(point, nurbs_surface_points(own), 3 * body->points * sizeof *point);
+    for (size_t f = 0; f < FIELDS; f++)
+        for (size_t k = 0; k < 3 * body->points; k++)
+            point[k] += step * weight[f] * body->move[3 * f * body->points + k];
+    nurbs_surface *moved = NULL;
+    igabem_hull *hull = NULL;
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_create(degree, size, nurbs_surface_knots(own, 0),
+                                               nurbs_surface_knots(own, 1), point,
+                                               nurbs_surface_weights(own), &moved),
+                          NURBS_OK);
+    free(point);
+    const nurbs_surface *patch = moved;
+    CU_ASSERT_EQUAL_FATAL(igabem_hull_create(&patch, 1, IGABEM_SYMMETRIC, &hull), IGABEM_OK);
+    igabem_solution *solution = solve(body, hull);
+    igabem_hull_free(hull);
+    nurbs_surface_free(moved);
+    return solution;
+}
+
+enum { SAMPLES_U = 9, SAMPLES_V = 5, NUMBERS = 2 * ANGLES + IGABEM_WAVE_RESIDUALS + 2 };
+
+/* H, residuals, C_w and wetted area. */
+static void results(const igabem_solution *solution, double *number)
+{
+    igabem_forces forces;
+    CU_ASSERT_EQUAL_FATAL(
+        igabem_kochin(solution, ANGLES, angles, (double(*)[2])(void *)number, NULL), IGABEM_OK);
+    CU_ASSERT_EQUAL_FATAL(igabem_wave_residuals(solution, number + 2 * ANGLES), IGABEM_OK);
+    CU_ASSERT_EQUAL_FATAL(igabem_forces_compute(solution, &forces), IGABEM_OK);
+    number[NUMBERS - 2] = forces.cw;
+    number[NUMBERS - 1] = forces.wetted_area;
+}
+
+static void tangents(const igabem_tangent *tangent, double *number)
+{
+    double h[FIELDS * ANGLES][2], r[FIELDS * IGABEM_WAVE_RESIDUALS], cw[FIELDS], area[FIELDS];
+    CU_ASSERT_EQUAL_FATAL(igabem_tangent_kochin(tangent, ANGLES, angles, h), IGABEM_OK);
+    CU_ASSERT_EQUAL_FATAL(igabem_tangent_residuals(tangent, r), IGABEM_OK);
+    CU_ASSERT_EQUAL_FATAL(igabem_tangent_cw(tangent, cw), IGABEM_OK);
+    CU_ASSERT_EQUAL_FATAL(igabem_tangent_wetted_area(tangent, area), IGABEM_OK);
+    for (size_t f = 0; f < FIELDS; f++, number += NUMBERS) {
+        memcpy(number, h[f * ANGLES], 2 * ANGLES * sizeof *number);
+        memcpy(number + 2 * ANGLES, r + f * IGABEM_WAVE_RESIDUALS,
+               IGABEM_WAVE_RESIDUALS * sizeof *number);
+        number[NUMBERS - 2] = cw[f];
+        number[NUMBERS - 1] = area[f];
+    }
+}
+
+/* Central differences, of fourth order: error of H, residuals, C_w and area against the largest of
+ * each. */
+static void compare(nurbs_surface *surface, igabem_formulation formulation, double tolerance,
+                    double step, const double most[4])
+{
+    static const size_t begin[5] = {0, 2 * ANGLES, NUMBERS - 2, NUMBERS - 1, NUMBERS};
+    struct body body;
+    make_body(surface, formulation, tolerance, &body);
+    igabem_solution *solution = solve(&body, body.hull);
+    igabem_tangent *tangent = NULL;
+    igabem_status status = igabem_tangent_create(body.hull, solution, FIELDS, body.move, &tangent);
+    if (status != IGABEM_OK)
+        fprintf(stderr, "%s\n", igabem_last_error());
+    CU_ASSERT_EQUAL_FATAL(status, IGABEM_OK);
+    double exact[FIELDS][NUMBERS], at[4][NUMBERS];
+    tangents(tangent, exact[0]);
+    for (size_t f = 0; f < FIELDS; f++) {
+        static const double steps[4] = {-2.0, -1.0, 1.0, 2.0};
+        for (int k = 0; k < 4; k++) {
+            double weight[FIELDS] = {0.0};
+            weight[f] = 1.0;
+            igabem_solution *moved = solve_moved(&body, weight, steps[k] * step);
+            results(moved, at[k]);
+            igabem_solution_free(moved);
+        }
+        for (int part = 0; part < 4; part++) {
+            double error = 0.0, scale = 0.0;
+            for (size_t i = begin[part]; i < begin[part + 1]; i++) {
+                double difference =
+                    (8.0 * (at[2][i] - at[1][i]) - (at[3][i] - at[0][i])) / (12.0 * step);
+                error = fmax(error, fabs(difference - exact[f][i]));
+                scale = fmax(scale, fabs(difference));
+            }
+            if (getenv("TANGENT_PRINT"))
+                printf("%s field %zu part %d: %.2e\n", igabem_formulation_name(formulation), f,
+                       part, error / scale);
+            CU_ASSERT(error <= most[part] * scale);
+        }
+    }
+    igabem_tangent_free(tangent);
+    igabem_solution_free(solution);
+    free_body(&body);
+}
+
+/* H(h) - H(0) - h H' falls four-fold as h is halved. */
+static void remainder_of(nurbs_surface *surface, igabem_formulation formulation)
+{
+    enum { HALVINGS = 4 };
+    struct body body;
+    make_body(surface, formulation, 1e-5, &body);
+    igabem_solution *solution = solve(&body, body.hull);
+    igabem_tangent *tangent = NULL;
+    CU_ASSERT_EQUAL_FATAL(igabem_tangent_create(body.hull, solution, FIELDS, body.move, &tangent),
+                          IGABEM_OK);
+    double exact[FIELDS][NUMBERS], at[NUMBERS], moved[NUMBERS], error[HALVINGS];
+    const double weight[FIELDS] = {0.0, 1.0, 0.0};
+    tangents(tangent, exact[0]);
+    results(solution, at);
+    for (int k = 0; k < HALVINGS; k++) {
+        double step = 0.08 / (1 << k);
+        igabem_solution *other = solve_moved(&body, weight, step);
+        results(other, moved);
+        error[k] = 0.0;
+        for (size_t i = 0; i < 2 * ANGLES; i++)
+            error[k] = fmax(error[k], fabs(moved[i] - at[i] - step * exact[1][i]));
+        igabem_solution_free(other);
+    }
+    for (int k = 1; k < HALVINGS; k++)
+        CU_ASSERT(fabs(error[k - 1] / error[k] - 4.0) < 0.4);
+    igabem_tangent_free(tangent);
+    igabem_solution_free(solution);
+    free_body(&body);
+}
+
+/* Along a sum of fields the tangents are sums. */
+static void sum_of(nurbs_surface *surface, igabem_formulation formulation)
+{
+    static const double weight[FIELDS] = {0.4, -1.3, 0.7};
+    struct body body;
+    make_body(surface, formulation, 1e-5, &body);
+    igabem_solution *solution = solve(&body, body.hull);
+    igabem_tangent *each = NULL, *together = NULL;
+    double *move = calloc(3 * FIELDS * body.points, sizeof *move);
+    CU_ASSERT_FATAL(move != NULL);
+    for (size_t f = 0; f < FIELDS; f++)
+        for (size_t k = 0; k < 3 * body.points; k++)
+            move[k] += weight[f] * body.move[3 * f * body.points + k];
+    /* of the others only the first counts: they stay 0 */
+    CU_ASSERT_EQUAL_FATAL(igabem_tangent_create(body.hull, solution, FIELDS, body.move, &each),
+                          IGABEM_OK);
+    CU_ASSERT_EQUAL_FATAL(igabem_tangent_create(body.hull, solution, FIELDS, move, &together),
+                          IGABEM_OK);
+    double one[FIELDS][NUMBERS], all[FIELDS][NUMBERS];
+    tangents(each, one[0]);
+    tangents(together, all[0]);
+    for (size_t i = 0; i < NUMBERS; i++) {
+        double sum = 0.0, scale = 0.0;
+        for (size_t f = 0; f < FIELDS; f++) {
+            sum += weight[f] * one[f][i];
+            scale += fabs(weight[f] * one[f][i]);
+        }
+        CHECK_CLOSE(all[0][i], sum, 1e-10 * scale + 1e-16);
+        CU_ASSERT(all[1][i] == 0.0);
+    }
+    free(move);
+    igabem_tangent_free(each);
+    igabem_tangent_free(together);
+    igabem_solution_free(solution);
+    free_body(&body);
+}
+
+static void explicit_densities(void)
+{
+    static const double most[4] = {1e-9, 1e-9, 1e-9, 1e-9};
+    compare(wigley_surface(0.1, 0.0625, 8, 4), IGABEM_FORMULATION_MICHELL, 1e-9, 1e-3, most);
+    compare(wigley_surface(0.1, 0.0625, 8, 4), IGABEM_FORMULATION_HOGNER, 1e-9, 1e-3, most);
+    compare(ellipsoid_surface(1.0, 0.2, 0.15, 0.2, 4, 4), IGABEM_FORMULATION_HOGNER, 1e-9, 1e-3,
+            most);
+}
+
+static void remainders(void)
+{
+    remainder_of(wigley_surface(0.1, 0.0625, 8, 4), IGABEM_FORMULATION_HOGNER);
+}
+
+static void sums(void)
+{
+    sum_of(wigley_surface(0.1, 0.0625, 4, 2), IGABEM_FORMULATION_HOGNER);
+}
+
+static void expect_refusal(const struct body *body, const igabem_hull *hull,
+                           const igabem_solution *solution, const char *sentence)
+{
+    igabem_tangent *tangent = NULL;
+    CU_ASSERT_EQUAL(igabem_tangent_create(hull, solution, FIELDS, body->move, &tangent),
+                    IGABEM_ERROR_ARGUMENT);
+    CU_ASSERT(tangent == NULL);
+    if (!strstr(igabem_last_error(), sentence))
+        fprintf(stderr, "%s\n", igabem_last_error());
+    CU_ASSERT(strstr(igabem_last_error(), sentence) != NULL);
+}
+
+static void refusals(void)
+{
+    struct body body;
+    make_body(wigley_surface(0.1, 0.0625, 4, 2), IGABEM_FORMULATION_HOGNER, 1e-5, &body);
+    igabem_solution *solution = solve(&body, body.hull);
+    size_t columns = nurbs_surface_size(body.surface, 1), inner = columns + 1;
+    double kept = body.move[3 * inner];
+    body.move[3 * inner] = 0.01;
+    expect_refusal(&body, body.hull, solution, "moves by 0.01 m along x, expected 0");
+    body.move[3 * inner] = kept;
+    kept = body.move[3 * inner + 1];
+    body.move[3 * inner + 1] = NAN;
+    expect_refusal(&body, body.hull, solution, "along y, expected a number");
+    body.move[3 * inner + 1] = kept;
+    body.move[1] = 0.01;
+    expect_refusal(&body, body.hull, solution, "lies in the centre plane and moves by 0.01 m");
+    body.move[1] = 0.0;
+    igabem_hull *other = wigley_hull(0.11, 0.0625, 4, 2);
+    expect_refusal(&body, other, solution, "away from that of the solution's hull");
+    igabem_hull_free(other);
+    igabem_solution_free(solution);
+    body.options.formulation = IGABEM_FORMULATION_EXTERIOR;
+    solution = solve(&body, body.hull);
+    expect_refusal(&body, body.hull, solution, "formulation exterior has no tangents yet");
+    igabem_solution_free(solution);
+    free_body(&body);
+}
+
+static const struct check_case cases[] = {
+    {"explicit densities against differences", explicit_densities},
+    {"remainders", remainders},
+    {"sums of fields", sums},
+    {"refusals", refusals},
+};
+
+CHECK_MAIN("igabem_tangent", cases)
