@@ -4,6 +4,7 @@
 #include "program.h"
 #include "result.h"
 #include "template.h"
+#include "text.h"
 
 #include <errno.h>
 #include <math.h>
@@ -19,13 +20,11 @@ static char *fill_command(const struct config *c, const struct template_values *
     const char *command = cheap ? c->cheap : c->command;
     char *text = NULL;
     size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
+    FILE *out = text_open(&text, &size);
     if (out)
         template_write(command, strlen(command), values, out);
-    /* Closing a stream that cannot shrink its text loses it without a word. */
-    if (out && fclose(out) == 0 && text)
+    if (out && text_close(out, &text))
         return text;
-    free(text);
     cli_fail("out of memory");
     return NULL;
 }

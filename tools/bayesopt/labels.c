@@ -1,6 +1,7 @@
 /* Values that have names: how they are kept, printed and read. */
 #include "json_result.h"
 #include "names.h"
+#include "text.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,10 +11,10 @@
 static bool join_labels(const struct labels *labels, char **joined)
 {
     size_t size;
-    FILE *out = open_memstream(joined, &size);
+    FILE *out = text_open(joined, &size);
     for (size_t i = 0; out && i < labels->n; i++)
         fprintf(out, "%s%s", i ? "\n" : "", labels->texts[i]);
-    return (out && fclose(out) == 0 && *joined) || cli_refuse("out of memory");
+    return (out && text_close(out, joined)) || cli_refuse("out of memory");
 }
 
 static bool split_labels(char *joined, struct labels *labels)

@@ -2,6 +2,7 @@
 #include "commands.h"
 #include "evaluate.h"
 #include "launcher.h"
+#include "text.h"
 
 #include <math.h>
 #include <signal.h>
@@ -392,7 +393,7 @@ int command_run(int argc, char **argv)
     char *usage = NULL;
     size_t length;
     config_start(&r.config);
-    FILE *out = open_memstream(&usage, &length);
+    FILE *out = text_open(&usage, &length);
     if (!out)
         return cli_fail("out of memory");
     fputs("usage: bayesopt run CONFIG.yaml [OPTION]...\n"
@@ -414,7 +415,8 @@ int command_run(int argc, char **argv)
           out);
     settings_help(&CONFIG, &r.config, true, out);
     fputs("\nOptions:\n", out);
-    fclose(out);
+    if (!text_close(out, &usage))
+        return cli_fail("out of memory");
     struct settings table = CONFIG;
     table.usage = usage;
     int code = run_command(argc, argv, &table, &r);

@@ -2,6 +2,7 @@
 #include "cli.h"
 #include "config.h"
 #include "template.h"
+#include "text.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -14,7 +15,7 @@ static char *join_templates(const struct config *c)
 {
     char *joined = NULL;
     size_t size;
-    FILE *out = open_memstream(&joined, &size);
+    FILE *out = text_open(&joined, &size);
     bool ok = out != NULL;
     for (size_t i = 0; i < c->n_templates && ok; i++) {
         size_t length;
@@ -24,7 +25,7 @@ static char *join_templates(const struct config *c)
             fputs(text, out);
         free(text);
     }
-    if (out && fclose(out) == 0 && joined && ok)
+    if (out && text_close(out, &joined) && ok)
         return joined;
     free(joined);
     if (ok)

@@ -1,4 +1,5 @@
 #include "cli.h"
+#include "text.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -195,13 +196,13 @@ char *cli_read(const char *path, size_t *length)
 {
     FILE *file = fopen(path, "rb");
     char *text = NULL;
-    FILE *out = file ? open_memstream(&text, length) : NULL;
+    FILE *out = file ? text_open(&text, length) : NULL;
     char buffer[4096];
     size_t n;
     while (out && (n = fread(buffer, 1, sizeof buffer, file)) > 0)
         fwrite(buffer, 1, n, out);
     bool ok = out && !ferror(file);
-    if (out && (ferror(out) | (fclose(out) != 0) || !text)) {
+    if (out && !text_close(out, &text)) {
         errno = ENOMEM;
         ok = false;
     }

@@ -2,6 +2,7 @@
 
 #include "cli.h"
 #include "settings_internal.h"
+#include "text.h"
 
 #include <errno.h>
 #include <math.h>
@@ -127,7 +128,7 @@ void settings_add(struct settings_source *source, size_t line, const char *key, 
         cli_needed(realloc(source->complaints, (source->n + 1) * sizeof *source->complaints));
     char *text = NULL;
     size_t length, i = source->n;
-    FILE *out = cli_needed(open_memstream(&text, &length));
+    FILE *out = cli_needed(text_open(&text, &length));
     source->complaints = more;
     fprintf(out, "%s%s%s%s", source->prefix, *source->prefix && *key ? "." : "", key,
             *source->prefix || *key ? " " : "");
@@ -135,7 +136,7 @@ void settings_add(struct settings_source *source, size_t line, const char *key, 
     va_start(args, format);
     vfprintf(out, format, args);
     va_end(args);
-    cli_needed(fclose(out) == 0 ? text : NULL);
+    cli_needed(text_close(out, &text));
     for (; i > 0 && more[i - 1].line > line; i--)
         more[i] = more[i - 1];
     more[i] = (struct complaint){line, text};

@@ -1,5 +1,6 @@
 #include "cli.h"
 #include "settings_internal.h"
+#include "text.h"
 
 #include <ctype.h>
 #include <stdlib.h>
@@ -144,15 +145,14 @@ static int print_help(const struct settings *table, const void *target)
 {
     char *text = NULL;
     size_t length;
-    FILE *out = open_memstream(&text, &length);
+    FILE *out = text_open(&text, &length);
     if (!out)
         return cli_fail("out of memory");
     fputs(table->usage ? table->usage : "", out);
     settings_help(table, target, false, out);
     settings_help(&STANDARDS, &(int){0}, false, out);
     fputs("\nExit status: 0 success, 1 failure, 2 wrong usage.\n", out);
-    fclose(out);
-    int code = cli_print(text);
+    int code = cli_print(text_close(out, &text));
     free(text);
     return code;
 }

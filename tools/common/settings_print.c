@@ -1,5 +1,6 @@
 #include "cli.h"
 #include "settings_internal.h"
+#include "text.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -85,16 +86,14 @@ char *settings_value(const struct setting *row, const void *target)
 {
     char *text = NULL;
     size_t length, n = row->n_most ? row->n_most : row->type < SETTING_ROWS;
-    FILE *out = cli_needed(open_memstream(&text, &length));
+    FILE *out = cli_needed(text_open(&text, &length));
     if (row->count)
         n = *(const size_t *)(const void *)((const char *)target + row->count);
     for (size_t i = 0; i < n && row->type != SETTING_HEADING && row->type != SETTING_ROWS; i++) {
         fputs(i ? ", " : "", out);
         print_entry(row, (const char *)target + row->offset, i, out);
     }
-    bool whole = !ferror(out);
-    whole = fclose(out) == 0 && whole;
-    return cli_needed(whole ? text : NULL);
+    return cli_needed(text_close(out, &text));
 }
 
 static bool print_file(const char *path, FILE *out)
@@ -118,7 +117,7 @@ char *settings_text(const struct settings *table, const void *target)
 {
     char *text = NULL;
     size_t length;
-    FILE *out = cli_needed(open_memstream(&text, &length));
+    FILE *out = cli_needed(text_open(&text, &length));
     bool ok = true;
     for (size_t r = 0; ok && r < table->n; r++) {
         const struct setting *row = &table->rows[r];
@@ -135,9 +134,7 @@ char *settings_text(const struct settings *table, const void *target)
         fputc('\n', out);
         free(value);
     }
-    bool whole = !ferror(out);
-    whole = fclose(out) == 0 && whole;
-    cli_needed(whole ? text : NULL);
+    cli_needed(text_close(out, &text));
     if (ok)
         return text;
     free(text);

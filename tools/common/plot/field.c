@@ -1,6 +1,7 @@
 /* Colours of values: maps, bars, rasters, cells and lines of equal value. */
 #include "cli.h"
 #include "plot/plot.h"
+#include "text.h"
 
 #include <cairo.h>
 #include <glib.h>
@@ -75,10 +76,9 @@ static void write_image(cairo_surface_t *image, FILE *out)
 {
     char *png = NULL;
     size_t n = 0;
-    FILE *memory = cli_needed(open_memstream(&png, &n));
+    FILE *memory = cli_needed(text_open(&png, &n));
     bool whole = !cairo_surface_write_to_png_stream(image, write_bytes, memory);
-    whole = fclose(memory) == 0 && whole;
-    cli_needed(whole ? png : NULL);
+    cli_needed(text_close(memory, &png) && whole ? png : NULL);
     gchar *text = g_base64_encode((const guchar *)png, n);
     fputs(text, out);
     g_free(text);

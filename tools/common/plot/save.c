@@ -1,6 +1,7 @@
 /* Sheets as files: SVG as it is, PNG and PDF drawn by librsvg on cairo. */
 #include "cli.h"
 #include "plot/plot.h"
+#include "text.h"
 
 #include <cairo-pdf.h>
 #include <errno.h>
@@ -51,10 +52,9 @@ static void write_svg(const struct plot *plot, FILE *out, bool file)
 
 static void close_sheet(struct plot *plot)
 {
-    bool whole = !ferror(plot->out);
-    whole = fclose(plot->out) == 0 && whole;
+    FILE *out = plot->out;
     plot->out = NULL;
-    cli_needed(whole ? plot->body : NULL);
+    cli_needed(text_close(out, &plot->body));
 }
 
 void plot_embed(struct plot *plot, FILE *page)
@@ -110,11 +110,9 @@ static bool write_picture(const struct plot *plot, const char *path, FILE *strea
     }
     char *svg = NULL;
     size_t n = 0;
-    FILE *memory = cli_needed(open_memstream(&svg, &n));
+    FILE *memory = cli_needed(text_open(&svg, &n));
     write_svg(plot, memory, true);
-    bool whole = !ferror(memory);
-    whole = fclose(memory) == 0 && whole;
-    cli_needed(whole ? svg : NULL);
+    cli_needed(text_close(memory, &svg));
     bool good = write_drawn(plot, svg, n, !strcasecmp(extension(path), ".png"), stream);
     free(svg);
     return good;

@@ -1,6 +1,7 @@
 /* Sheets and their elements: the only place that writes SVG of text, lines and marks. */
 #include "cli.h"
 #include "plot/plot.h"
+#include "text.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -11,7 +12,7 @@ bool plot_open(struct plot *plot, double width, double height, const char *title
 {
     *plot = (struct plot){.width = ceil(width), .height = ceil(height), .scale = 2};
     snprintf(plot->title, sizeof plot->title, "%s", title);
-    plot->out = cli_needed(open_memstream(&plot->body, &plot->size));
+    plot->out = cli_needed(text_open(&plot->body, &plot->size));
     return true;
 }
 

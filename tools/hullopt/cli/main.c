@@ -1,5 +1,6 @@
 #include "cli.h"
 #include "cli/commands.h"
+#include "text.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -152,7 +153,7 @@ static int print_help(const struct options *options)
 {
     char *text = NULL;
     size_t length;
-    FILE *out = open_memstream(&text, &length);
+    FILE *out = text_open(&text, &length);
     if (!out)
         return cli_fail("out of memory");
     fputs(HELP, out);
@@ -161,8 +162,7 @@ static int print_help(const struct options *options)
     fputs("\nAll take --threads N (default: all cores), --help and --version.\n"
           "\nExit codes: 0 success, 1 failure, 2 usage.\n",
           out);
-    fclose(out);
-    int code = cli_print(text);
+    int code = cli_print(text_close(out, &text));
     free(text);
     return code;
 }

@@ -3,6 +3,7 @@
 #include "fields.h"
 #include "program.h"
 #include "result.h"
+#include "text.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -61,13 +62,11 @@ static bool run(const struct config_command *c, struct config_fields *fields, co
 {
     char *text = NULL, reason[MOST_REASON];
     size_t size;
-    FILE *out = open_memstream(&text, &size);
+    FILE *out = text_open(&text, &size);
     if (out)
         fields_write(c->command, strlen(c->command), config_field, fields, out);
-    if (!out || fclose(out) != 0 || !text) {
-        free(text);
+    if (!out || !text_close(out, &text))
         return core_no_memory();
-    }
     bool ok = program_run(folder, text, c->timeout, reason, sizeof reason);
     free(text);
     return ok || core_fail("command: %s", reason);

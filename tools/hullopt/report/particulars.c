@@ -1,5 +1,7 @@
 #include "report/particulars.h"
 
+#include "cli.h"
+
 #include <math.h>
 
 static void set(struct particular *p, int which, double value)
@@ -31,7 +33,8 @@ size_t particulars_list(const struct results *r, struct particular list[PARTICUL
     };
     enum { ROWS = sizeof rows / sizeof *rows };
     double length = problem_length(r->problem), end[2] = {NAN, NAN};
-    nurbs_hull_perpendiculars(results_hull(r, 0), end);
+    nurbs_status status = nurbs_hull_perpendiculars(results_hull(r, 0), end);
+    cli_needed(status == NURBS_ERROR_MEMORY ? NULL : end);
     double fp = end[1];
     for (size_t i = 0; i < ROWS; i++)
         list[i] = rows[i];
