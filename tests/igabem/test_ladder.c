@@ -46,6 +46,12 @@ static void levels(void)
     igabem_ladder_level(2, &options);
     CU_ASSERT_EQUAL(options.refine, 5); /* 2, 3, 4.5 */
     CU_ASSERT_EQUAL(options.refine_v, 0);
+    CU_ASSERT_EQUAL(options.surface_cells, 0); /* by rule */
+    options.surface_cells = 24;
+    options.surface_rows = 8;
+    igabem_ladder_level(2, &options);
+    CU_ASSERT_EQUAL(options.surface_cells, 54);
+    CU_ASSERT_EQUAL(options.surface_rows, 18);
     options.refine = options.refine_v = 1;
     igabem_ladder_level(2, &options);
     CU_ASSERT_EQUAL(options.refine, 3); /* 1, 2, 3: each finer than the one before */

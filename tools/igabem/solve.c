@@ -9,9 +9,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-const struct solve_result *solve_run_result(const struct solve_run *run, size_t level, size_t c)
+static struct solve_result *case_result(const struct solve_run *run, size_t level, size_t c)
 {
     return &run->results[level * run->cases + c];
+}
+
+const struct solve_result *solve_run_result(const struct solve_run *run, size_t level, size_t c)
+{
+    return case_result(run, level, c);
 }
 
 void solve_run_order(const struct solve_run *run, size_t level, size_t c, double *order,
@@ -39,29 +44,56 @@ void solve_run_total(const struct solve_run *run, const struct solve_result *res
 
 enum { MOST_FORMULATIONS = 16 };
 
-/* Formulations of a run; of all of them the one for hulls like this is the first. Fills
- * list[MOST_FORMULATIONS], returns their number. */
+static bool is_potential(igabem_formulation formulation)
+{
+    return igabem_formulation_info(formulation)->potential;
+}
+
+/* Formulations of a run; of all of them the one for hulls like this is the first, and those with a
+ * potential, which share nothing with the others, are the last. Fills list[MOST_FORMULATIONS],
+ * returns their number. */
 static size_t formulations(const struct solve_request *request, const igabem_hull_info *info,
                            igabem_formulation *list)
 {
     const igabem_formulation_row *row;
+    bool transom = info->transom != IGABEM_TRANSOM_NONE;
     size_t n = 0;
     if (!request->all) {
         list[n++] = request->options.formulation;
         return n;
     }
-    for (int stern = info->transom != IGABEM_TRANSOM_NONE; stern >= 0; stern--)
+    for (int part = transom ? 0 : 1; part < 3; part++)
         for (igabem_formulation f = IGABEM_FORMULATION_AUTO + 1;
              (row = igabem_formulation_info(f)) && n < MOST_FORMULATIONS; f++)
-            if (row->stern_rows == (stern == 1) && !row->potential)
+            if (part == (row->stern_rows ? 0 : row->potential ? 2 : 1))
                 list[n++] = f;
     return n;
 }
 
+/* Of one call among several: cases done before it, and its own. */
+struct part_progress {
+    struct cli_progress line;
+    size_t before, cases, all;
+};
+
 static int report_progress(void *data, double fraction)
 {
-    cli_progress_update(data, fraction, NULL);
+    struct part_progress *part = data;
+    cli_progress_update(&part->line,
+                        ((double)part->before + fraction * (double)part->cases) / (double)part->all,
+                        NULL);
     return 0;
+}
+
+/* Level 0 of a ladder: like the hull's knots, so that the last level but one is a single solve. */
+static void start_surface(const struct solve_run *run, igabem_options *options)
+{
+    igabem_options rule = *options;
+    if (run->levels > 1 && options->surface_cells == 0 && is_potential(options->formulation) &&
+        !igabem_options_freeze(run->input->hull, &rule))
+        options->surface_cells =
+            fmax(4, round(rule.surface_cells * sqrt((double)igabem_ladder_unknowns(run->levels) /
+                                                    (double)igabem_ladder_unknowns(2))));
 }
 
 /* Settings of all cases of one level: Froude numbers slow, formulations fast. */
@@ -74,6 +106,7 @@ static void fill_options(const struct solve_run *run, size_t level, igabem_optio
         options[c] = request->options;
         options[c].froude = request->fr[c / n];
         options[c].formulation = list[c % n];
+        start_surface(run, &options[c]);
         igabem_ladder_level(level, &options[c]);
         if (!isnan(request->x_s))
             options[c].stern_length =
@@ -137,59 +170,136 @@ static void keep_warnings(const igabem_solution *solution, struct solve_result *
             result->warning[k] = strdup(sentence);
 }
 
-static int solve_level(struct solve_run *run, size_t level, igabem_options *options,
-                       igabem_solution **solutions, struct cli_progress *progress)
+static const igabem_forces no_forces = {.speed = NAN,
+                                        .k0 = NAN,
+                                        .wetted_area = NAN,
+                                        .volume = NAN,
+                                        .rw = NAN,
+                                        .cw = NAN,
+                                        .cw_l2 = NAN,
+                                        .cw_pressure = NAN,
+                                        .cw_pressure_linear = NAN,
+                                        .cw_run_up = NAN,
+                                        .cw_transom = NAN,
+                                        .cw_cutoff_lower = NAN,
+                                        .cw_cutoff_upper = NAN,
+                                        .share_beyond_cutoff = NAN,
+                                        .sinkage = NAN,
+                                        .trim = NAN,
+                                        .condition = NAN,
+                                        .residual = NAN,
+                                        .seconds = NAN,
+                                        .memory = NAN,
+                                        .unknowns_per_wave = NAN,
+                                        .cw_error = NAN};
+
+/* What one case says; without a solution it was refused. */
+static igabem_status take_case(const struct solve_run *run, bool last_level,
+                               const igabem_options *options, const igabem_solution *solution,
+                               struct solve_result *result)
 {
+    result->options = solution ? *igabem_solution_options(solution) : *options;
+    result->refine = result->options.refine;
+    result->forces = no_forces;
+    result->cw_cut = result->share[0] = result->share[1] = result->share[2] = NAN;
+    if (!solution) {
+        result->refused = true;
+        result->warning[0] = cli_needed(strdup(igabem_last_error()));
+        return IGABEM_OK;
+    }
+    igabem_status status = igabem_forces_compute(solution, &result->forces);
+    if (!status && run->request->survey && last_level &&
+        result->options.kernel == IGABEM_KERNEL_KELVIN)
+        status = survey(run, solution, result);
+    if (run->request->free_to_trim)
+        refer_to_rest(run, result);
+    if (!status)
+        keep_warnings(solution, result);
+    return status;
+}
+
+/* Of all formulations those with a potential may refuse what the others take. */
+static bool may_refuse(const struct solve_run *run, igabem_formulation formulation,
+                       igabem_status status)
+{
+    return run->request->all && is_potential(formulation) &&
+           (status == IGABEM_ERROR_ARGUMENT || status == IGABEM_ERROR_GEOMETRY ||
+            status == IGABEM_ERROR_NUMERIC);
+}
+
+/* Solves n cases together and takes what they say; what is refused together, one by one. */
+static int solve_cases(struct solve_run *run, size_t level, size_t n, const size_t *cases,
+                       const igabem_options *options, struct part_progress *progress)
+{
+    bool last = level + 1 == run->levels;
+    igabem_options *own = cli_needed(malloc(n * sizeof *own));
+    igabem_solution **solutions = cli_needed(calloc(n, sizeof *solutions));
+    for (size_t k = 0; k < n; k++)
+        own[k] = options[cases[k]];
+    progress->cases = n;
+    int code = CLI_OK;
+    igabem_status status = igabem_solve_many(run->input->hull, n, own, solutions);
+    if (may_refuse(run, own[0].formulation, status)) {
+        status = IGABEM_OK;
+        for (size_t k = 0; k < n && n > 1 && code == CLI_OK; k++)
+            code = solve_cases(run, level, 1, &cases[k], options, progress);
+        if (n == 1)
+            status = take_case(run, last, own, NULL, case_result(run, level, *cases));
+    } else
+        for (size_t k = 0; k < n && !status && code == CLI_OK; k++) {
+            status = take_case(run, last, &own[k], solutions[k], case_result(run, level, cases[k]));
+            if (!status && last && cases[k] == run->shown)
+                code = write_files(run, solutions[k]);
+        }
+    if (status)
+        code = cli_fail("%s: %s", run->request->hull.path, igabem_last_error());
+    for (size_t k = 0; k < n; k++)
+        igabem_solution_free(solutions[k]);
+    free(solutions);
+    free(own);
+    return code;
+}
+
+/* The sources of all formulations share one call, each potential has its own. */
+static int solve_level(struct solve_run *run, size_t level, struct part_progress *progress)
+{
+    size_t *cases = cli_needed(malloc(run->cases * sizeof *cases));
+    bool *taken = cli_needed(calloc(run->cases, sizeof *taken));
+    igabem_options *options = cli_needed(calloc(run->cases, sizeof *options));
+    int code = CLI_OK;
     fill_options(run, level, options);
     for (size_t c = 0; c < run->cases; c++) {
         options[c].progress = report_progress;
         options[c].progress_user_data = progress;
     }
-    igabem_status status = igabem_solve_many(run->input->hull, run->cases, options, solutions);
-    for (size_t c = 0; !status && c < run->cases; c++) {
-        struct solve_result *result = &run->results[level * run->cases + c];
-        status = igabem_forces_compute(solutions[c], &result->forces);
-        result->options = *igabem_solution_options(solutions[c]);
-        result->refine = result->options.refine;
-        result->cw_cut = result->share[0] = result->share[1] = result->share[2] = NAN;
-        if (!status && run->request->survey && level + 1 == run->levels &&
-            result->options.kernel == IGABEM_KERNEL_KELVIN)
-            status = survey(run, solutions[c], result);
-        if (run->request->free_to_trim)
-            refer_to_rest(run, result);
-        if (!status)
-            keep_warnings(solutions[c], result);
+    for (size_t first = 0; first < run->cases && code == CLI_OK; first++) {
+        bool potential = is_potential(options[first].formulation);
+        size_t n = 0;
+        for (size_t c = first; c < run->cases; c++)
+            if (!taken[c] && (potential ? options[c].formulation == options[first].formulation
+                                        : !is_potential(options[c].formulation))) {
+                taken[c] = true;
+                cases[n++] = c;
+            }
+        if (n > 0)
+            code = solve_cases(run, level, n, cases, options, progress);
+        progress->before += n;
     }
-    int code = CLI_OK;
-    if (status)
-        code = cli_fail("%s: %s", run->request->hull.path, igabem_last_error());
-    else if (level + 1 == run->levels) {
-        igabem_formulation list[MOST_FORMULATIONS];
-        size_t n = formulations(run->request, &run->info, list);
-        code = write_files(run, solutions[run->cases - n]);
-    }
-    for (size_t c = 0; c < run->cases; c++)
-        igabem_solution_free(solutions[c]);
+    free(cases);
+    free(taken);
+    free(options);
     return code;
 }
 
 static int solve_all(struct solve_run *run)
 {
-    igabem_options *options = calloc(run->cases, sizeof *options);
-    igabem_solution **solutions = calloc(run->cases, sizeof *solutions);
-    run->results = calloc(run->cases * run->levels, sizeof *run->results);
+    struct part_progress progress = {.all = run->cases * run->levels};
+    run->results = cli_needed(calloc(progress.all, sizeof *run->results));
     int code = CLI_OK;
-    if (!options || !solutions || !run->results)
-        code = cli_fail("out of memory");
-    struct cli_progress progress;
-    cli_progress_start(&progress, "solving");
-    for (size_t level = 0; code == CLI_OK && level < run->levels; level++) {
-        memset(solutions, 0, run->cases * sizeof *solutions);
-        code = solve_level(run, level, options, solutions, &progress);
-    }
-    cli_progress_end(&progress);
-    free(options);
-    free(solutions);
+    cli_progress_start(&progress.line, "solving");
+    for (size_t level = 0; code == CLI_OK && level < run->levels; level++)
+        code = solve_level(run, level, &progress);
+    cli_progress_end(&progress.line);
     return code;
 }
 
@@ -283,7 +393,9 @@ int command_solve(int argc, char **argv)
     if (code == CLI_OK) {
         igabem_formulation list[MOST_FORMULATIONS];
         igabem_hull_get_info(input.hull, &run.info);
-        run.cases = request.n_fr * formulations(&request, &run.info, list);
+        size_t n = formulations(&request, &run.info, list);
+        run.cases = request.n_fr * n;
+        run.shown = run.cases - n;
         code = solve_all(&run);
     }
     if (code == CLI_OK)

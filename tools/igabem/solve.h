@@ -40,6 +40,7 @@ struct solve_result {
     igabem_options options; /* as used */
     igabem_forces forces;
     int refine;
+    bool refused;                 /* no figures; the first warning says why */
     double cw_cut;                /* by a longitudinal wave cut; NAN: not asked for, or none */
     double share[3];              /* of the fore, middle and aft third in C_w; NAN likewise */
     char *warning[WARNINGS_MOST]; /* owned; NULL ends */
@@ -51,6 +52,7 @@ struct solve_run {
     const struct hull_input *input;
     igabem_hull_info info;
     size_t cases, levels;
+    size_t shown;        /* the case that files and pictures show: of the last Froude number */
     double area_at_rest; /* m^2, what the coefficients refer to when the hull floats freely */
     struct solve_result *results;
 };

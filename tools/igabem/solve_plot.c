@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const colours[6] = {"#1b6ca8", "#c0392b", "#27825c",
-                                       "#8e44ad", "#b9770e", "#555555"};
+static const char *const colours[8] = {"#1b6ca8", "#c0392b", "#27825c", "#8e44ad",
+                                       "#b9770e", "#555555", "#12a5a5", "#d35ea8"};
 
 /* One figure of the results of a formulation at every Froude number. */
 struct series {
@@ -43,7 +43,7 @@ static void draw_series(struct plot *plot, const struct plot_frame *f, const str
                         struct plot_legend *legend, size_t *entries)
 {
     const struct solve_result *first = solve_run_result(s->run, s->run->levels - 1, s->which);
-    const struct plot_pen pen = {colours[s->which % 6], 2, NULL}, dashed = {pen.colour, 1.5, "5 4"};
+    const struct plot_pen pen = {colours[s->which % 8], 2, NULL}, dashed = {pen.colour, 1.5, "5 4"};
     plot_curve(plot, f, s->n, s->fr, s->cw, pen);
     for (size_t i = 0; i < s->n; i++)
         plot_mark(plot, plot_x(f, s->fr[i]), plot_y(f, s->cw[i]), PLOT_DOT, 2.5, pen.colour, NULL);
@@ -108,7 +108,7 @@ bool solve_draw_waves(const struct solve_run *run, const struct wave_grid *grid,
     char name[80];
     double *edge = NULL;
     size_t n_edge = 0;
-    const struct solve_result *last = solve_run_result(run, run->levels - 1, run->cases - 1);
+    const struct solve_result *last = solve_run_result(run, run->levels - 1, run->shown);
     snprintf(name, sizeof name, "Fr %.4g", last->options.froude);
     if (nurbs_hull_waterline(run->input->source, &n_edge, &edge) != NURBS_OK)
         return cli_refuse("%s", nurbs_last_error());
@@ -171,7 +171,7 @@ bool solve_draw_pressure(const struct solve_run *run, const struct patch_sample 
 {
     enum { WIDTH = 1100, WANTED = 140, TOP = 40, GAP = 74 };
     static const size_t across[2] = {2, 1};
-    const struct solve_result *last = solve_run_result(run, run->levels - 1, run->cases - 1);
+    const struct solve_result *last = solve_run_result(run, run->levels - 1, run->shown);
     struct plot_axis axis[3];
     for (size_t k = 0; k < 3; k++)
         axis[k] = (struct plot_axis){.low = INFINITY, .high = -INFINITY};

@@ -75,7 +75,12 @@ static void print_result(const struct solve_run *run, const struct solve_result 
     print_column(" %*.4e", 11, f->cw_l2);
     print_column(" %*.4g", 9, f->rw);
     print_column(" %*.1e", 9, f->condition);
-    printf(" %7.2f\n", f->seconds);
+    print_column(" %*.2f", 7, f->seconds);
+    printf("\n");
+    if (result->refused) {
+        printf("  refused: %s\n", *result->warning);
+        return;
+    }
     print_settings(run, result);
     if (f->cost.rankine > 0)
         printf(
@@ -145,9 +150,8 @@ static void print_ladder(const struct solve_run *run, size_t c)
 static void print_spread(const struct solve_run *run)
 {
     size_t per_fr = run->cases / run->request->n_fr;
-    printf("\nuncertainty of the theory: C_w over the %zu formulations\n"
-           "Fr      default     lowest                          highest\n",
-           per_fr);
+    printf("\nuncertainty of the theory: C_w over the formulations that answer\n"
+           "Fr      default     lowest                          highest\n");
     for (size_t i = 0; i < run->request->n_fr; i++) {
         const struct solve_result *first = solve_run_result(run, run->levels - 1, i * per_fr);
         const struct solve_result *low = first, *high = first;
@@ -177,6 +181,7 @@ int solve_print_table(const struct solve_run *run)
     if (run->request->all)
         print_spread(run);
     for (size_t c = 0; run->levels > 1 && c < run->cases; c++)
-        print_ladder(run, c);
+        if (!solve_run_result(run, run->levels - 1, c)->refused)
+            print_ladder(run, c);
     return cli_printed();
 }

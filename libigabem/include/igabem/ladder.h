@@ -12,7 +12,8 @@ extern "C" {
 #endif
 
 /** Sets refine and refine_v to those of a level: level 0 leaves options as they are, each further
- * one is half as fine again as the one before, at least by one part. */
+ * one is half as fine again as the one before, at least by one part; surface_cells and
+ * surface_rows likewise where they are not 0. */
 IGABEM_API void igabem_ladder_level(size_t level, igabem_options *options);
 
 /** Unknowns for igabem_options_refine() on level 0 of a ladder of so many levels, so that the last

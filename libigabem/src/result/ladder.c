@@ -24,6 +24,10 @@ void igabem_ladder_level(size_t level, igabem_options *options)
     options->refine = parts_on_level(options->refine, level);
     if (options->refine_v > 0)
         options->refine_v = parts_on_level(options->refine_v, level);
+    if (options->surface_cells > 0)
+        options->surface_cells = round(options->surface_cells * pow(finer, (double)level));
+    if (options->surface_rows > 0)
+        options->surface_rows = round(options->surface_rows * pow(finer, (double)level));
 }
 
 size_t igabem_ladder_unknowns(size_t levels)
