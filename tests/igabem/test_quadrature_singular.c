@@ -20,7 +20,8 @@ static size_t singular_moments(const struct plate *plate, const struct gauss *ga
     struct nodes nodes;
     double correction[3];
     nodes_init(&nodes, &plate->mesh);
-    singular_nodes(&plate->element, s, t, singular_order(tolerance), gauss, &nodes, correction);
+    singular_nodes(&plate->element, s, t, singular_order(tolerance), gauss, &nodes, correction,
+                   NULL);
     CU_ASSERT_FALSE_FATAL(nodes.failed);
     nodes_velocity(&nodes, origin, v);
     for (int c = 0; c < 3; c++) {

@@ -200,7 +200,7 @@ static igabem_status add_near(const struct layer_surface *surface, const struct 
         double unused[3];
         singular_nodes(&mesh->element[point->home[h]], point->local[h][0], point->local[h][1],
                        singular_order(influence->tolerance), &influence->gauss, &work->singular,
-                       unused);
+                       unused, NULL);
     }
     return status == IGABEM_OK ? flush(work, &work->singular, origin, factor, rows) : status;
 }

@@ -184,16 +184,14 @@ static void fill_normals(const struct nodes *nodes, size_t functions_here,
 
 static void fill_panel(struct influence *influence, size_t p, double *at, struct nodes *nodes)
 {
-    const struct panel *panel = &influence->mesh->panel[p];
-    const struct element *element = &influence->mesh->element[panel->first];
+    const struct element *element = &influence->mesh->element[influence->mesh->panel[p].first];
     panel_extent(influence, p);
     for (int k = 0; k < REGULAR_CLASSES * REGULAR_CLASSES; k++) {
         struct regular_rule *rule =
             &influence->regular[p * REGULAR_CLASSES * REGULAR_CLASSES + (size_t)k];
-        const int points[2] = {least_points(element, 0) + class_points[k / REGULAR_CLASSES],
-                               least_points(element, 1) + class_points[k % REGULAR_CLASSES]};
+        const int class[2] = {k / REGULAR_CLASSES, k % REGULAR_CLASSES};
         nodes_clear(nodes);
-        panel_nodes(influence, panel, points, nodes);
+        regular_nodes(influence, p, class, nodes);
         if (nodes->failed)
             return;
         size_t n = nodes->n;
@@ -207,6 +205,16 @@ static void fill_panel(struct influence *influence, size_t p, double *at, struct
         fill_normals(nodes, functions(element), rule);
         at += n * (RULE_COLUMNS + functions(element));
     }
+}
+
+void regular_nodes(const struct influence *influence, size_t p, const int class[2],
+                   struct nodes *nodes)
+{
+    const struct panel *panel = &influence->mesh->panel[p];
+    const struct element *element = &influence->mesh->element[panel->first];
+    const int points[2] = {least_points(element, 0) + class_points[class[0]],
+                           least_points(element, 1) + class_points[class[1]]};
+    panel_nodes(influence, panel, points, nodes);
 }
 
 static size_t panel_doubles(const struct mesh *mesh, size_t p)

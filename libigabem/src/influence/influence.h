@@ -51,6 +51,10 @@ bool regular_class(const struct influence *influence, size_t panel, const struct
 const struct regular_rule *regular_rule_of(const struct influence *influence, size_t panel,
                                            const int class[2]);
 
+/* Appends the nodes of that rule, element by element. */
+void regular_nodes(const struct influence *influence, size_t panel, const int class[2],
+                   struct nodes *nodes);
+
 /* Adds sum_node k[c * stride + node] f[node][.] to rows[c * row_stride + unknown], c < fields. */
 void regular_scatter(const struct element *element, const struct regular_rule *rule, size_t fields,
                      const double *k, size_t stride, double *rows, size_t row_stride);

@@ -161,7 +161,7 @@ static igabem_status near_rows(const struct influence *influence, size_t point,
             double local[2], correction[3];
             if (i == 0 && element_contains(density, element, point, local)) {
                 singular_nodes(element, local[0], local[1], singular_order(influence->tolerance),
-                               &influence->gauss, &work->singular, correction);
+                               &influence->gauss, &work->singular, correction, NULL);
                 add_correction(element, local, correction, rows, density->n);
                 work->cost.singular_pairs++;
                 continue;

@@ -182,10 +182,32 @@ static int make_triangle(const struct jet *jet, const double a[2], const double 
     return 1;
 }
 
+/* Adds the derivatives of one direction's part of the correction, -w J (ln l - inverse)/(4 pi l^3)
+ * times the image of length l, J the area element over the weight: the image moves by
+ * e_y (direction . (V_s, V_t)). */
+static void add_slope(const struct jet *jet, const double direction[2], const double image[3],
+                      double length, double w, double inverse, double slope[2][3])
+{
+    const double *a = jet->ds, *b = jet->dt;
+    double normal[3], size = jet_area(jet, 1.0, normal);
+    const double growth[2] = {(normal[0] * b[2] - normal[2] * b[0]) / size,
+                              (normal[2] * a[0] - normal[0] * a[2]) / size};
+    double cube = length * length * length, f = (log(length) - inverse) / cube;
+    double df = (1.0 - 3.0 * (log(length) - inverse)) / (cube * length);
+    double scale = -w / (4.0 * PI * jet->weight);
+    for (int d = 0; d < 2; d++) {
+        double along = growth[d] * f + size * df * image[1] * direction[d] / length;
+        for (int c = 0; c < 3; c++)
+            slope[d][c] += scale * along * image[c];
+        slope[d][1] += scale * size * f * direction[d];
+    }
+}
+
 static void triangle_nodes(const struct triangle *triangle, const struct element *element,
                            const struct expansion *expansion, const struct jet *jet,
                            const double at[2], double strength, int order,
-                           const struct gauss *gauss, struct nodes *nodes, double correction[3])
+                           const struct gauss *gauss, struct nodes *nodes, double correction[3],
+                           double slope[2][3])
 {
     double mu0 = asinh(-triangle->foot / triangle->height);
     double mu1 = asinh((1.0 - triangle->foot) / triangle->height);
@@ -211,11 +233,14 @@ static void triangle_nodes(const struct triangle *triangle, const struct element
         double factor = -w * strength * (log(length) - inverse) / (4.0 * PI * square * length);
         for (int c = 0; c < 3; c++)
             correction[c] += factor * image[c];
+        if (slope)
+            add_slope(jet, direction, image, length, w, inverse, slope);
     }
 }
 
 void singular_nodes(const struct element *element, double s, double t, int order,
-                    const struct gauss *gauss, struct nodes *nodes, double correction[3])
+                    const struct gauss *gauss, struct nodes *nodes, double correction[3],
+                    double slope[2][3])
 {
     struct jet jet;
     struct expansion expansion;
@@ -226,10 +251,12 @@ void singular_nodes(const struct element *element, double s, double t, int order
     const double corner[5][2] = {
         {-s, -t}, {1.0 - s, -t}, {1.0 - s, 1.0 - t}, {-s, 1.0 - t}, {-s, -t}};
     correction[0] = correction[1] = correction[2] = 0.0;
+    for (int c = 0; slope && c < 3; c++)
+        slope[0][c] = slope[1][c] = 0.0;
     for (int k = 0; k < 4; k++) {
         struct triangle triangle;
         if (make_triangle(&jet, corner[k], corner[k + 1], &triangle))
             triangle_nodes(&triangle, element, &expansion, &jet, at, strength, order, gauss, nodes,
-                           correction);
+                           correction, slope);
     }
 }

@@ -18,9 +18,12 @@
 /* Appends the nodes of the rule for the point at the local parameters (s, t), inside the element or
  * on its edge, `order` points along lambda and along each panel of mu; their positions are relative
  * to the point, free of the rounding error of a difference. Fills correction[3]: to be
- * multiplied by the Bernstein polynomials at (s, t) and added to the moments of the kernel. */
+ * multiplied by the Bernstein polynomials at (s, t) and added to the moments of the kernel. slope
+ * (NULL: not wanted) is its change with the derivatives along s and t there of a move of the
+ * element along y, the nodes keeping their parameters. */
 void singular_nodes(const struct element *element, double s, double t, int order,
-                    const struct gauss *gauss, struct nodes *nodes, double correction[3]);
+                    const struct gauss *gauss, struct nodes *nodes, double correction[3],
+                    double slope[2][3]);
 
 /* Points that reach the tolerance. */
 int singular_order(double tolerance);
