@@ -144,7 +144,8 @@ module igabem_c
     real(c_double) :: surface_downstream
     real(c_double) :: surface_side
     real(c_double) :: surface_columns
-    real(c_double) :: reserved(8)
+    real(c_double) :: keep_system
+    real(c_double) :: reserved(7)
   end type
 
   type, bind(c) :: igabem_cost
@@ -1073,6 +1074,13 @@ module igabem_c
       import
       type(c_ptr), value :: tangent
       real(c_double), intent(inout), optional :: darea(*)
+    end function
+    integer(c_int) function igabem_tangent_samples(tangent, n_u, n_v, dsample) bind(c)
+      import
+      type(c_ptr), value :: tangent
+      integer(c_size_t), value :: n_u
+      integer(c_size_t), value :: n_v
+      type(igabem_pressure_sample), intent(inout), optional :: dsample(*)
     end function
     integer(c_int) function nurbs_curve_create(degree, n, knots, points, weights, curve) bind(c)
       import

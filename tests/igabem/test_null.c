@@ -156,6 +156,7 @@ static void tangents(void)
     igabem_tangent *tangent = NULL;
     double h[1][2];
     static const double still[3 * 64] = {0.0};
+    igabem_pressure_sample sample;
     igabem_options_init(&options);
     options.froude = 0.35;
     options.refine = 1;
@@ -176,6 +177,9 @@ static void tangents(void)
     REFUSED(igabem_tangent_cw(tangent, NULL));
     REFUSED(igabem_tangent_wetted_area(NULL, out));
     REFUSED(igabem_tangent_wetted_area(tangent, NULL));
+    REFUSED(igabem_tangent_samples(NULL, 1, 1, &sample));
+    REFUSED(igabem_tangent_samples(tangent, 1, 1, NULL));
+    REFUSED(igabem_tangent_samples(tangent, 1, 1, &sample)); /* no velocity */
     igabem_tangent_free(tangent);
     igabem_tangent_free(NULL);
     igabem_solution_free(solution);

@@ -2,10 +2,11 @@
 #include "check.h"
 #include "hulls.h"
 
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { FIELDS = 3, ANGLES = 7 };
+enum { FIELDS = 3, ANGLES = 7, PARTS = 5 };
 static const double angles[ANGLES] = {0.0, 0.3, 0.7, 1.1, 1.9, 3.0, 5.0};
 
 struct body {
@@ -91,42 +92,80 @@ static igabem_solution *solve_moved(const struct body *body, const double weight
     return solution;
 }
 
-enum { SAMPLES_U = 9, SAMPLES_V = 5, NUMBERS = 2 * ANGLES + IGABEM_WAVE_RESIDUALS + 2 };
+enum {
+    SAMPLES_U = 9,
+    SAMPLES_V = 5,
+    SAMPLE = sizeof(igabem_pressure_sample) / sizeof(double),
+    RESIDUALS_AT = 2 * ANGLES,
+    CW_AT = RESIDUALS_AT + IGABEM_WAVE_RESIDUALS,
+    AREA_AT = CW_AT + 1,
+    SAMPLES_AT = AREA_AT + 1,
+    NUMBERS = SAMPLES_AT + SAMPLE * (SAMPLES_U * SAMPLES_V + 2 * SAMPLES_U)
+};
 
-/* H, residuals, C_w and wetted area. */
+static bool has_velocity(const igabem_solution *solution)
+{
+    return igabem_formulation_info(igabem_solution_options(solution)->formulation)->solves;
+}
+
+/* H, residuals, C_w, wetted area, samples of the pressure. */
 static void results(const igabem_solution *solution, double *number)
 {
     igabem_forces forces;
     CU_ASSERT_EQUAL_FATAL(
         igabem_kochin(solution, ANGLES, angles, (double(*)[2])(void *)number, NULL), IGABEM_OK);
-    CU_ASSERT_EQUAL_FATAL(igabem_wave_residuals(solution, number + 2 * ANGLES), IGABEM_OK);
+    CU_ASSERT_EQUAL_FATAL(igabem_wave_residuals(solution, number + RESIDUALS_AT), IGABEM_OK);
     CU_ASSERT_EQUAL_FATAL(igabem_forces_compute(solution, &forces), IGABEM_OK);
-    number[NUMBERS - 2] = forces.cw;
-    number[NUMBERS - 1] = forces.wetted_area;
+    number[CW_AT] = forces.cw;
+    number[AREA_AT] = forces.wetted_area;
+    memset(number + SAMPLES_AT, 0, (NUMBERS - SAMPLES_AT) * sizeof *number);
+    if (!has_velocity(solution))
+        return;
+    size_t n;
+    igabem_pressure_sample *sample;
+    CU_ASSERT_EQUAL_FATAL(igabem_pressure_samples(solution, SAMPLES_U, SAMPLES_V, &n, &sample),
+                          IGABEM_OK);
+    CU_ASSERT_FATAL(SAMPLES_AT + SAMPLE * n <= NUMBERS);
+    memcpy(number + SAMPLES_AT, sample, n * sizeof *sample);
+    free(sample);
 }
 
-static void tangents(const igabem_tangent *tangent, double *number)
+static void tangents(const igabem_solution *solution, const igabem_tangent *tangent, double *number)
 {
     double h[FIELDS * ANGLES][2], r[FIELDS * IGABEM_WAVE_RESIDUALS], cw[FIELDS], area[FIELDS];
     CU_ASSERT_EQUAL_FATAL(igabem_tangent_kochin(tangent, ANGLES, angles, h), IGABEM_OK);
     CU_ASSERT_EQUAL_FATAL(igabem_tangent_residuals(tangent, r), IGABEM_OK);
     CU_ASSERT_EQUAL_FATAL(igabem_tangent_cw(tangent, cw), IGABEM_OK);
     CU_ASSERT_EQUAL_FATAL(igabem_tangent_wetted_area(tangent, area), IGABEM_OK);
+    size_t n = 0;
+    igabem_pressure_sample *sample = NULL;
+    if (has_velocity(solution)) {
+        CU_ASSERT_EQUAL_FATAL(igabem_pressure_samples(solution, SAMPLES_U, SAMPLES_V, &n, NULL),
+                              IGABEM_OK);
+        sample = malloc(FIELDS * n * sizeof *sample);
+        CU_ASSERT_FATAL(sample != NULL);
+        CU_ASSERT_EQUAL_FATAL(igabem_tangent_samples(tangent, SAMPLES_U, SAMPLES_V, sample),
+                              IGABEM_OK);
+    }
     for (size_t f = 0; f < FIELDS; f++, number += NUMBERS) {
         memcpy(number, h[f * ANGLES], 2 * ANGLES * sizeof *number);
-        memcpy(number + 2 * ANGLES, r + f * IGABEM_WAVE_RESIDUALS,
+        memcpy(number + RESIDUALS_AT, r + f * IGABEM_WAVE_RESIDUALS,
                IGABEM_WAVE_RESIDUALS * sizeof *number);
-        number[NUMBERS - 2] = cw[f];
-        number[NUMBERS - 1] = area[f];
+        number[CW_AT] = cw[f];
+        number[AREA_AT] = area[f];
+        memset(number + SAMPLES_AT, 0, (NUMBERS - SAMPLES_AT) * sizeof *number);
+        for (size_t k = 0; k < n; k++)
+            memcpy(number + SAMPLES_AT + SAMPLE * k, &sample[f * n + k], sizeof *sample);
     }
+    free(sample);
 }
 
-/* Central differences, of fourth order: error of H, residuals, C_w and area against the largest of
- * each. */
+/* Central differences, of fourth order: error of H, residuals, C_w, area and samples against the
+ * largest of each. */
 static void compare(nurbs_surface *surface, igabem_formulation formulation, double tolerance,
-                    double step, const double most[4])
+                    double step, const double most[PARTS])
 {
-    static const size_t begin[5] = {0, 2 * ANGLES, NUMBERS - 2, NUMBERS - 1, NUMBERS};
+    static const size_t begin[PARTS + 1] = {0, RESIDUALS_AT, CW_AT, AREA_AT, SAMPLES_AT, NUMBERS};
     struct body body;
     make_body(surface, formulation, tolerance, &body);
     igabem_solution *solution = solve(&body, body.hull);
@@ -136,7 +175,7 @@ static void compare(nurbs_surface *surface, igabem_formulation formulation, doub
         fprintf(stderr, "%s\n", igabem_last_error());
     CU_ASSERT_EQUAL_FATAL(status, IGABEM_OK);
     double exact[FIELDS][NUMBERS], at[4][NUMBERS];
-    tangents(tangent, exact[0]);
+    tangents(solution, tangent, exact[0]);
     for (size_t f = 0; f < FIELDS; f++) {
         static const double steps[4] = {-2.0, -1.0, 1.0, 2.0};
         for (int k = 0; k < 4; k++) {
@@ -146,7 +185,7 @@ static void compare(nurbs_surface *surface, igabem_formulation formulation, doub
             results(moved, at[k]);
             igabem_solution_free(moved);
         }
-        for (int part = 0; part < 4; part++) {
+        for (int part = 0; part < PARTS; part++) {
             double error = 0.0, scale = 0.0;
             for (size_t i = begin[part]; i < begin[part + 1]; i++) {
                 double difference =
@@ -177,7 +216,7 @@ static void remainder_of(nurbs_surface *surface, igabem_formulation formulation)
                           IGABEM_OK);
     double exact[FIELDS][NUMBERS], at[NUMBERS], moved[NUMBERS], error[HALVINGS];
     const double weight[FIELDS] = {0.0, 1.0, 0.0};
-    tangents(tangent, exact[0]);
+    tangents(solution, tangent, exact[0]);
     results(solution, at);
     for (int k = 0; k < HALVINGS; k++) {
         double step = 0.08 / (1 << k);
@@ -214,8 +253,8 @@ static void sum_of(nurbs_surface *surface, igabem_formulation formulation)
     CU_ASSERT_EQUAL_FATAL(igabem_tangent_create(body.hull, solution, FIELDS, move, &together),
                           IGABEM_OK);
     double one[FIELDS][NUMBERS], all[FIELDS][NUMBERS];
-    tangents(each, one[0]);
-    tangents(together, all[0]);
+    tangents(solution, each, one[0]);
+    tangents(solution, together, all[0]);
     for (size_t i = 0; i < NUMBERS; i++) {
         double sum = 0.0, scale = 0.0;
         for (size_t f = 0; f < FIELDS; f++) {
@@ -234,21 +273,53 @@ static void sum_of(nurbs_surface *surface, igabem_formulation formulation)
 
 static void explicit_densities(void)
 {
-    static const double most[4] = {1e-9, 1e-9, 1e-9, 1e-9};
+    static const double most[PARTS] = {1e-9, 1e-9, 1e-9, 1e-9, 0.0};
     compare(wigley_surface(0.1, 0.0625, 8, 4), IGABEM_FORMULATION_MICHELL, 1e-9, 1e-3, most);
     compare(wigley_surface(0.1, 0.0625, 8, 4), IGABEM_FORMULATION_HOGNER, 1e-9, 1e-3, most);
     compare(ellipsoid_surface(1.0, 0.2, 0.15, 0.2, 4, 4), IGABEM_FORMULATION_HOGNER, 1e-9, 1e-3,
             most);
 }
 
+static void double_body(void)
+{
+    static const double most[PARTS] = {1e-7, 1e-7, 1e-7, 1e-9, 1e-6};
+    compare(wigley_surface(0.1, 0.0625, 6, 3), IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN, 1e-8, 4e-3,
+            most);
+    compare(ellipsoid_surface(1.0, 0.2, 0.15, 0.2, 2, 2), IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN,
+            1e-10, 4e-3, most);
+}
+
+/* A system that is kept is the one that is assembled again. */
+static void kept_system(void)
+{
+    struct body body;
+    make_body(wigley_surface(0.1, 0.0625, 4, 2), IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN, 1e-5,
+              &body);
+    double number[2][FIELDS][NUMBERS];
+    for (int kept = 0; kept < 2; kept++) {
+        body.options.keep_system = kept;
+        igabem_solution *solution = solve(&body, body.hull);
+        igabem_tangent *tangent = NULL;
+        CU_ASSERT_EQUAL_FATAL(
+            igabem_tangent_create(body.hull, solution, FIELDS, body.move, &tangent), IGABEM_OK);
+        tangents(solution, tangent, number[kept][0]);
+        igabem_tangent_free(tangent);
+        igabem_solution_free(solution);
+    }
+    CU_ASSERT(memcmp(number[0], number[1], sizeof number[0]) == 0);
+    free_body(&body);
+}
+
 static void remainders(void)
 {
     remainder_of(wigley_surface(0.1, 0.0625, 8, 4), IGABEM_FORMULATION_HOGNER);
+    remainder_of(wigley_surface(0.1, 0.0625, 6, 3), IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN);
 }
 
 static void sums(void)
 {
     sum_of(wigley_surface(0.1, 0.0625, 4, 2), IGABEM_FORMULATION_HOGNER);
+    sum_of(wigley_surface(0.1, 0.0625, 4, 2), IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN);
 }
 
 static void expect_refusal(const struct body *body, const igabem_hull *hull,
@@ -293,6 +364,8 @@ static void refusals(void)
 
 static const struct check_case cases[] = {
     {"explicit densities against differences", explicit_densities},
+    {"double body against differences", double_body},
+    {"kept system", kept_system},
     {"remainders", remainders},
     {"sums of fields", sums},
     {"refusals", refusals},

@@ -43,7 +43,7 @@ typedef struct igabem_formulation_row {
                        in the water outside; else a source density on the hull alone */
     bool double_model; /**< of a potential: the free surface is linearised about the double-body
                           flow, which runs along the hull, else about the free stream */
-    bool tangents; /**< it has derivatives along moves of the hull: igabem_tangent_create() */
+    bool tangents;     /**< it has derivatives along moves of the hull: igabem_tangent_create() */
 } igabem_formulation_row;
 
 /** The row of a formulation; NULL if there is no such one, so that counting up from

@@ -1,12 +1,14 @@
 /**
  * @file tangent.h
  * Derivatives of a solution along fields of moves of the hull's control points, the density folded
- * in: of the Kochin function, of C_w and of its residuals. They are those of the solution as it is
- * computed, by the same rules of quadrature, which stay where they are on the hull:
+ * in: of the Kochin function, of C_w, of its residuals and of the velocities on the hull. They are
+ * those of the solution as it is computed, by the same rules of quadrature, which stay where they
+ * are on the hull:
  *
- *     H' = E sigma' + E' sigma
+ *     A sigma' = U n_x' - A' sigma,     H' = E sigma' + E' sigma
  *
- * (docs/theory.md, section 15).
+ * (docs/theory.md, section 15). All fields together cost about as much as a solution, where
+ * differences cost one or two for each field.
  */
 #ifndef IGABEM_TANGENT_H
 #define IGABEM_TANGENT_H
@@ -29,7 +31,8 @@ typedef struct igabem_tangent igabem_tangent;
  * with it the speed, alone. The wetted area that coefficients divide by moves too. Patches that
  * meet have to move together along their common edge, which is not checked.
  * @param hull     that of the solution, borrowed for the call
- * @param solution borrowed until the tangent is freed
+ * @param solution borrowed until the tangent is freed; solved with igabem_options.keep_system it
+ *                 spares this call from assembling its system again
  * @param n        fields, at least 1
  * @param move     [n][points][3], m for a unit of e: for each field the moves of the control points
  *                 of all patches of the hull, patch by patch, u slow and v fast. x and z are 0, and
@@ -59,6 +62,13 @@ IGABEM_API igabem_status igabem_tangent_cw(const igabem_tangent *tangent, double
 
 /** Derivatives of the wetted area of both sides: fills darea[n], m^2. */
 IGABEM_API igabem_status igabem_tangent_wetted_area(const igabem_tangent *tangent, double *darea);
+
+/** Derivatives of igabem_pressure_samples(), in the same order: fills dsample[n][samples], where
+ * samples is the number that it gives for n_u x n_v parts. With the gradient of
+ * igabem_pressure_sum() they make those of C_w by pressure.
+ * Errors: IGABEM_ERROR_ARGUMENT: the formulation has no velocity on the hull. */
+IGABEM_API igabem_status igabem_tangent_samples(const igabem_tangent *tangent, size_t n_u,
+                                                size_t n_v, igabem_pressure_sample *dsample);
 
 #ifdef __cplusplus
 }

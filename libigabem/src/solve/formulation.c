@@ -31,7 +31,8 @@ static const igabem_formulation_row table[] = {
                                                .sentence = "double-body sources, resistance by "
                                                            "their Kochin function",
                                                .solves = true,
-                                               .line_term = true},
+                                               .line_term = true,
+                                               .tangents = true},
     /* Hogner (1932). */
     [IGABEM_FORMULATION_HOGNER] = {.name = "hogner",
                                    .sentence = "sigma = U n_x on the hull (no solve)",

@@ -66,7 +66,7 @@ static lapack_int factor(struct progress *progress, lapack_int order, double *a,
 }
 
 static igabem_status factored_solve(const struct matrix *matrix, double norm, lapack_int *pivots,
-                                    double *right, double *condition)
+                                    size_t count, double *right, double *condition)
 {
     double reciprocal = 0.0, *a = matrix->rows;
     lapack_int order = (lapack_int)matrix->n, stride = (lapack_int)matrix->stride;
@@ -78,19 +78,26 @@ static igabem_status factored_solve(const struct matrix *matrix, double norm, la
         *condition = 1.0 / reciprocal;
     }
     if (info == 0)
-        info = LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'T', order, 1, a, stride, pivots, right, order);
+        info = LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'T', order, (lapack_int)count, a, stride, pivots,
+                              right, order);
     if (info != 0)
         return igabem_fail_lapack("solution for the source density", info);
-    for (lapack_int i = 0; i < order; i++)
+    for (size_t i = 0; i < matrix->n * count; i++)
         if (!isfinite(right[i]))
-            return igabem_fail(IGABEM_ERROR_NUMERIC, "unknown %d is not finite", (int)i);
+            return igabem_fail(IGABEM_ERROR_NUMERIC, "unknown %zu is not finite", i % matrix->n);
     return IGABEM_OK;
 }
 
 igabem_status linear_lu(const struct matrix *matrix, double *right, double *condition)
 {
+    return linear_lu_many(matrix, 1, right, condition);
+}
+
+igabem_status linear_lu_many(const struct matrix *matrix, size_t count, double *right,
+                             double *condition)
+{
     size_t n = matrix->n;
-    igabem_status status = check_size(matrix->stride);
+    igabem_status status = check_size(matrix->stride > count ? matrix->stride : count);
     if (status != IGABEM_OK)
         return status;
     lapack_int order = (lapack_int)n, stride = (lapack_int)matrix->stride;
@@ -101,7 +108,7 @@ igabem_status linear_lu(const struct matrix *matrix, double *right, double *cond
     double *a = matrix->rows, norm = LAPACKE_dlange(LAPACK_COL_MAJOR, 'I', order, order, a, stride);
     status = check_norm(norm);
     if (status == IGABEM_OK)
-        status = factored_solve(matrix, norm, pivots, right, condition);
+        status = factored_solve(matrix, norm, pivots, count, right, condition);
     free(pivots);
     return status;
 }

@@ -16,6 +16,9 @@ struct matrix {
 /* Solves matrix x = right (replaced by x; the matrix by its factors) and estimates the condition
  * number in the 1-norm (NULL: not wanted). */
 igabem_status linear_lu(const struct matrix *matrix, double *right, double *condition);
+/* The same for `count` right-hand sides, each contiguous. */
+igabem_status linear_lu_many(const struct matrix *matrix, size_t count, double *right,
+                             double *condition);
 
 /* What iterations need besides the matrix, which stays as it is and is borrowed. */
 struct iteration;

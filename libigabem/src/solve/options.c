@@ -108,6 +108,8 @@ static igabem_status check(const igabem_options *options)
         status = check_range("surface_side", options->surface_side, 0.05, 10.0);
     if (status == IGABEM_OK && options->surface_columns != 0.0)
         status = check_range("surface_columns", options->surface_columns, 2.0, 1000.0);
+    if (status == IGABEM_OK)
+        status = check_range("keep_system", options->keep_system, 0.0, 1.0);
     return status;
 }
 

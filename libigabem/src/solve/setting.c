@@ -80,6 +80,17 @@ static igabem_status fill_rows(const struct influence *influence, const struct p
     return status;
 }
 
+static igabem_status keep(const double *rows, igabem_solution *solution)
+{
+    size_t n = solution->density->n, size = 3 * n * n * sizeof *rows;
+    solution->system = malloc(size);
+    if (!solution->system)
+        return solution_no_memory(n);
+    memcpy(solution->system, rows, size);
+    solution->memory += (double)size;
+    return IGABEM_OK;
+}
+
 /* Density and velocities from the rows, which are used up. */
 static igabem_status solve_rows(const struct influence *influence,
                                 const struct filter_change *change, double *rows,
@@ -94,7 +105,9 @@ static igabem_status solve_rows(const struct influence *influence,
     igabem_status status = solution->velocity && flow ? IGABEM_OK : solution_no_memory(n);
     if (status == IGABEM_OK) {
         assemble_turn(influence, rows);
-        if (solution->waves)
+        if (solution->options.keep_system != 0.0)
+            status = keep(rows, solution);
+        if (status == IGABEM_OK && solution->waves)
             status = coarsened_density(&matrix, solution, &solution->sigma_change);
     }
     if (status == IGABEM_OK)
@@ -149,5 +162,25 @@ igabem_status setting_solve(const struct influence *influence, const struct part
     free(weight);
     free(rows);
     filter_change_free(change);
+    return status;
+}
+
+igabem_status setting_system(const struct influence *influence, const igabem_solution *solution,
+                             double *rows)
+{
+    static const struct parts none = {NULL, NULL, NULL, 0.0};
+    size_t n = influence->density->n;
+    double *weight = malloc(2 * n * sizeof *weight);
+    const struct weights weights = {weight, weight + n};
+    struct filter_change *change = NULL;
+    if (!weight)
+        return solution_no_memory(n);
+    memset(rows, 0, 3 * n * n * sizeof *rows);
+    fill_weights(solution, &weights);
+    igabem_status status = fill_rows(influence, &none, 0.0, 1.0, &weights, solution, rows, &change);
+    if (status == IGABEM_OK)
+        assemble_turn(influence, rows);
+    filter_change_free(change);
+    free(weight);
     return status;
 }

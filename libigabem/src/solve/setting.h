@@ -17,4 +17,8 @@ struct parts {
 igabem_status setting_solve(const struct influence *influence, const struct parts *parts,
                             double share, igabem_solution *solution);
 
+/* Fills rows[n][3][n] with the system of a solution, as assemble_turn() leaves it. */
+igabem_status setting_system(const struct influence *influence, const igabem_solution *solution,
+                             double *rows);
+
 #endif

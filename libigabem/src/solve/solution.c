@@ -72,6 +72,7 @@ void igabem_solution_free(igabem_solution *solution)
     transom_free(solution->transom);
     free(solution->strip_phi);
     free(solution->sigma);
+    free(solution->system);
     free(solution->velocity);
     free(solution->sigma_lower);
     free(solution->sigma_upper);

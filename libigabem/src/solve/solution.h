@@ -20,6 +20,7 @@ struct igabem_solution {
     double *excess;               /* what the cell radiates then, m^3/s */
     struct transom *transom;      /* strip and face of a dry one; NULL: none */
     double *strip_phi;            /* coefficients, the rim's phi and its slope */
+    double *system;               /* [n][3][n] as assemble_turn() leaves it; NULL: not kept */
     double *velocity;     /* [3][n] coefficients of grad phi on the hull, fluid side; NULL: none */
     double *sigma_lower;  /* [n] with 0.85 of the cut-off, NULL: not asked for */
     double *sigma_upper;  /* [n] with 1.15 */

@@ -129,3 +129,122 @@ igabem_status igabem_tangent_wetted_area(const igabem_tangent *tangent, double *
         darea[f] = tangent->area[f];
     return IGABEM_OK;
 }
+
+/* The element that holds parameters of a patch, and the local ones. */
+static const struct element *locate(const struct mesh *mesh, size_t patch, const double uv[2],
+                                    double local[2])
+{
+    const struct element *element = NULL;
+    for (size_t e = mesh->patch_base[patch]; e < mesh->patch_base[patch + 1]; e++) {
+        bool inside = true;
+        element = &mesh->element[e];
+        for (int d = 0; d < 2; d++) {
+            local[d] = (uv[d] - element->lower[d]) / (element->upper[d] - element->lower[d]);
+            inside = inside && local[d] >= -1e-12 && local[d] <= 1.0 + 1e-12;
+        }
+        if (inside)
+            break;
+    }
+    return element;
+}
+
+/* Changes of n_x dS and nu_x dl of one sample: `dsample` is [fields] with the given stride. */
+static void change_measure(const igabem_tangent *tangent, size_t p, const double uv[2],
+                           const double jet[9], int edge, double part, struct sample_scale scale,
+                           double *v, size_t stride, igabem_pressure_sample *dsample)
+{
+    const struct density_patch *patch = &tangent->solution->density->patch[p];
+    size_t n = fields_of(tangent);
+    double local[2], width[2];
+    const struct element *element = locate(tangent->mesh, p, uv, local);
+    for (int d = 0; d < 2; d++)
+        width[d] = element->upper[d] - element->lower[d];
+    field_at(tangent->field, element, local, v);
+    if (edge < 0) {
+        struct area_change area;
+        area_change(jet + 3, jet + 6, patch->hull.sign, &area);
+        for (size_t f = 0; f < n; f++)
+            dsample[f * stride].area =
+                scale.area * part *
+                (area.inflow[0] * v[n + f] / width[0] + area.inflow[1] * v[2 * n + f] / width[1]);
+        return;
+    }
+    /* nu_x dl is the y component of the tangent, with a sign */
+    int along = edge < HULL_V0 ? 1 : 0;
+    double nu[2], dl, range = patch->hull.domain[along][1] - patch->hull.domain[along][0];
+    hull_waterline_normal(&patch->hull, edge, jet, nu, &dl);
+    double turn = nu[0] * jet[3 + 3 * along + 1] < 0 ? -1.0 : 1.0;
+    if (nu[0] == 0.0) /* the stream runs along it: the sign by the other component */
+        turn = nu[1] * jet[3 + 3 * along] > 0 ? -1.0 : 1.0;
+    for (size_t f = 0; f < n; f++)
+        dsample[f * stride].rise =
+            scale.rise * part * turn * range * v[(1 + (size_t)along) * n + f] / width[along];
+}
+
+/* The samples of one patch, whose first has the index `first` of `total`. */
+static igabem_status sample_patch(const igabem_tangent *tangent, size_t p, size_t n_u, size_t n_v,
+                                  size_t first, size_t total, igabem_pressure_sample *dsample)
+{
+    const igabem_solution *solution = tangent->solution;
+    const struct density_patch *patch = &solution->density->patch[p];
+    const double(*domain)[2] = patch->hull.domain;
+    const struct sample_scale scale = samples_scale(solution);
+    size_t n = fields_of(tangent), m = samples_of_patch(patch, n_u, n_v);
+    double wetted = solution->info.hydrostatics.wetted_area;
+    double part =
+        (domain[0][1] - domain[0][0]) * (domain[1][1] - domain[1][0]) / ((double)n_u * (double)n_v);
+    double(*uv)[2] = malloc((11 * m + 3 * n * m + 3 * n) * sizeof(double));
+    igabem_pressure_sample *own = malloc(m * sizeof *own);
+    igabem_status status = uv && own ? IGABEM_OK : tangent_no_memory(n);
+    if (status == IGABEM_OK) {
+        double *jet = uv[m], *velocity = jet + 9 * m, *v = velocity + 3 * n * m;
+        samples_place(patch, n_u, n_v, uv);
+        status =
+            density_evaluate(solution->density, p, 3 * n, tangent->velocity, m, uv[0], velocity);
+        if (status == IGABEM_OK && nurbs_surface_eval(patch->surface, 1, m, uv[0], jet) != NURBS_OK)
+            status = hull_nurbs_fail(NURBS_ERROR_NUMERIC, "samples of the pressure");
+        if (status == IGABEM_OK)
+            samples_measure(patch, n_u, n_v, jet, scale, own);
+        for (size_t k = 0; k < m && status == IGABEM_OK; k++) {
+            igabem_pressure_sample *to = dsample + first + k;
+            double share = part;
+            int edge = samples_edge(patch, n_u, n_v, k, &share);
+            for (size_t f = 0; f < n; f++) {
+                const double *dv = velocity + 3 * (n * k + f);
+                to[f * total] =
+                    (igabem_pressure_sample){.v = {dv[0] / solution->speed, dv[1] / solution->speed,
+                                                   dv[2] / solution->speed}};
+            }
+            change_measure(tangent, p, uv[k], jet + 9 * k, edge, edge < 0 ? part : share, scale, v,
+                           total, to);
+            for (size_t f = 0; f < n; f++) {
+                double growth = tangent->area[f] / wetted;
+                to[f * total].area -= own[k].area * growth;
+                to[f * total].rise -= own[k].rise * growth;
+            }
+        }
+    }
+    free(uv);
+    free(own);
+    return status;
+}
+
+igabem_status igabem_tangent_samples(const igabem_tangent *tangent, size_t n_u, size_t n_v,
+                                     igabem_pressure_sample *dsample)
+{
+    if (!tangent || !dsample)
+        return igabem_fail(IGABEM_ERROR_ARGUMENT, "NULL argument of igabem_tangent_samples");
+    const igabem_solution *solution = tangent->solution;
+    igabem_status status = samples_check(n_u, n_v);
+    if (status == IGABEM_OK && !tangent->velocity)
+        status = igabem_fail(IGABEM_ERROR_ARGUMENT, "formulation %s has no velocity on the hull",
+                             igabem_formulation_name(solution->options.formulation));
+    size_t total, at = 0;
+    if (status == IGABEM_OK)
+        status = igabem_pressure_samples(solution, n_u, n_v, &total, NULL);
+    for (size_t p = 0; p < solution->density->patches && status == IGABEM_OK; p++) {
+        status = sample_patch(tangent, p, n_u, n_v, at, total, dsample);
+        at += samples_of_patch(&solution->density->patch[p], n_u, n_v);
+    }
+    return status;
+}

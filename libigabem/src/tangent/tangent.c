@@ -68,7 +68,7 @@ static igabem_status area_tangents(igabem_tangent *tangent, double *v)
     return status;
 }
 
-static void normal_tangents(igabem_tangent *tangent, double *v)
+static void point_tangents(igabem_tangent *tangent, double *v)
 {
     const struct density *density = tangent->solution->density;
     size_t n = tangent->field->n;
@@ -85,6 +85,7 @@ static void normal_tangents(igabem_tangent *tangent, double *v)
         field_at(tangent->field, element, local, v);
         for (size_t f = 0; f < n; f++) {
             double *to = tangent->normal + 3 * (f * density->n + i);
+            tangent->point[i * n + f] = v[f];
             double vs = v[n + f], vt = v[2 * n + f];
             double size = area.length[0] * vs + area.length[1] * vt;
             for (size_t c = 0; c < 3; c++)
@@ -117,13 +118,15 @@ static igabem_status fill(const igabem_hull *hull, size_t n, const double *move,
         return status;
     double *v = malloc(3 * n * sizeof *v);
     tangent->area = calloc(n, sizeof *tangent->area);
+    tangent->point = malloc(n * unknowns * sizeof *tangent->point);
     tangent->normal = malloc(3 * n * unknowns * sizeof *tangent->normal);
     tangent->sigma = malloc(n * unknowns * sizeof *tangent->sigma);
-    status = v && tangent->area && tangent->normal && tangent->sigma ? area_tangents(tangent, v)
-                                                                     : tangent_no_memory(n);
+    bool complete = v && tangent->area && tangent->point && tangent->normal && tangent->sigma;
+    status = complete ? area_tangents(tangent, v) : tangent_no_memory(n);
     if (status == IGABEM_OK) {
-        normal_tangents(tangent, v);
-        status = explicit_tangents(tangent);
+        point_tangents(tangent, v);
+        status = formulation_solves(&solution->options) ? tangent_solve(tangent)
+                                                        : explicit_tangents(tangent);
     }
     free(v);
     return status;
@@ -162,6 +165,7 @@ void igabem_tangent_free(igabem_tangent *tangent)
     field_free(tangent->field);
     mesh_free(tangent->mesh);
     free(tangent->area);
+    free(tangent->point);
     free(tangent->normal);
     free(tangent->sigma);
     free(tangent->velocity);

@@ -12,6 +12,7 @@ struct igabem_tangent {
     struct mesh *mesh;               /* of its density */
     struct field *field;
     double *area;     /* [n] of the wetted area of both sides, m^2 */
+    double *point;    /* [unknowns][n] moves of the collocation points along y */
     double *normal;   /* [n][unknowns][3] of the unit normals at the collocation points */
     double *sigma;    /* [n][unknowns] coefficients of the density */
     double *velocity; /* [n][3][unknowns] coefficients; NULL: the solution has no velocity */
