@@ -246,6 +246,9 @@ static galv_status run(const galv_job *job, galv_model **out)
                                 job->shape ? galv_shape_parameters(job->shape->shape) : 0, &model);
     if (!status)
         status = galv_latent_pass(&stream, &spectrum, job->shape, model);
+    galv_stage_next(&stream.stage, 1);
+    if (!status)
+        status = galv_stage_report(&stream.stage, 1);
     if (!status) {
         model->method = method;
         *out = model;

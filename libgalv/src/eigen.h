@@ -9,7 +9,7 @@
 #include <stdint.h>
 
 /* All n eigenvalues and eigenvectors (n x n) of the lower triangle of a, which is destroyed. stage:
- * told of panels and of blocks of vectors; NULL: nobody listens. */
+ * told of columns and of blocks of vectors; NULL: nobody listens. */
 galv_status galv_eigen_dense(size_t n, double *a, double *values, double *vectors,
                              galv_stage *stage);
 
@@ -30,7 +30,7 @@ typedef struct galv_krylov {
                         never */
     double trace;
     uint64_t seed;
-    galv_stage *stage; /* told of the pairs converged after each application; NULL: nobody */
+    galv_stage *stage; /* told of each application; NULL: nobody listens */
     /* Results. */
     size_t found;        /* pairs returned, fewer than nev when the rank is */
     size_t converged;    /* of them, leading pairs within the tolerance */

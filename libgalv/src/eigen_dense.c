@@ -6,9 +6,9 @@
 #include <stdlib.h>
 
 /* LAPACK does all of it at once up to this order, in a tenth of a second. */
-enum { AT_ONCE = 512, PANEL = 32, NARROW_PANEL = 16, NARROW_FROM = 4000, COLUMNS = 512 };
+enum { AT_ONCE = 512, PANEL = 32, COLUMNS = 512 };
 /* Shares of the time: reduction, divide and conquer, vectors. */
-static const double REDUCED = 0.45, CONQUERED = 0.7;
+static const double REDUCED = 0.6, CONQUERED = 0.75;
 
 static void reverse(double *v, size_t n)
 {
@@ -67,29 +67,28 @@ static int reduce_column(size_t n, double *a, size_t j, size_t k, double *w, dou
 }
 
 /* To tridiagonal form as dsytrd does, panel by panel (Golub and Van Loan, Matrix Computations,
- * 8.3.1), so that it can be cancelled. */
+ * 8.3.1), so that it can be cancelled after each column. */
 static galv_status reduce(size_t n, double *a, double *w, double *d, double *e, double *tau,
                           galv_stage *stage)
 {
-    size_t width = n > NARROW_FROM ? NARROW_PANEL : PANEL;
     double h[PANEL];
-    for (size_t j = 0; j < n; j += width) {
-        size_t columns = n - j < width ? n - j : width, next = j + columns;
+    for (size_t j = 0; j < n; j += PANEL) {
+        size_t columns = n - j < PANEL ? n - j : PANEL, next = j + columns;
         for (size_t k = 0; k < columns; k++) {
-            int info = reduce_column(n, a, j, k, w, h, d, e, tau);
-            if (info)
-                return galv_lapack(info, "tridiagonal form");
+            double left = (double)(n - j - k) / (double)n;
+            galv_status status = galv_stage_report(stage, REDUCED * (1 - left * left * left));
+            if (!status)
+                status =
+                    galv_lapack(reduce_column(n, a, j, k, w, h, d, e, tau), "tridiagonal form");
+            if (status)
+                return status;
         }
         if (next < n)
             cblas_dsyr2k(CblasColMajor, CblasLower, CblasNoTrans, (blasint)(n - next),
                          (blasint)columns, -1, a + j * n + next, (blasint)n, w + next, (blasint)n,
                          1, a + next * n + next, (blasint)n);
-        double left = (double)(n - next) / (double)n;
-        galv_status status = galv_stage_report(stage, REDUCED * (1 - left * left * left));
-        if (status)
-            return status;
     }
-    return GALV_OK;
+    return galv_stage_report(stage, REDUCED);
 }
 
 static galv_status in_stages(size_t n, double *a, double *values, double *vectors,

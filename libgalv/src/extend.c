@@ -151,6 +151,7 @@ static galv_status project_new(galv_stream *stream, const galv_spectrum *spectru
     size_t appended, *places;
     double square = 0, n = (double)old->samples, total = (double)new->samples;
     galv_status status = galv_latent_appended(stream, new->points, &places, &appended);
+    galv_stage_next(&stream->stage, 1);
     for (size_t first = 0; first < source->head.samples && !status; first += stream->block) {
         size_t rest = source->head.samples - first;
         size_t count = rest < stream->block ? rest : stream->block;
@@ -165,6 +166,8 @@ static galv_status project_new(galv_stream *stream, const galv_spectrum *spectru
                         spectrum->vectors, (blasint)active, row, 1, 0,
                         new->latent + (old->samples + first + r - summary) * m, 1);
         }
+        if (!status)
+            status = galv_stream_report(stream, first + count);
     }
     square /= source->factor * source->factor;
     if (!status)
@@ -233,6 +236,8 @@ static galv_status extend(const galv_model *old, const galv_job *job, extension_
         status = galv_stream_start(&stream, job->source, job->block, job->weights, false);
     if (status)
         return status;
+    stream.stage.tell = job->options->progress;
+    stream.stage.user_data = job->options->progress_user_data;
     status = galv_spectrum_find(&stream, job, method, &goal, &spectrum);
     spectrum.trace += lost * n / total;
     if (!status)

@@ -15,17 +15,20 @@ enum { PARAMETER_BLOCK = 256 };
 /* Mean of x and the lower triangle of A, about the mean when centring. Two passes: A is then
  * accurate for any ratio of mean to spread. */
 static galv_status parameter_moments(const galv_shape_source *source, bool centre, double *mean,
-                                     double *a)
+                                     double *a, galv_stage *stage)
 {
     size_t n = galv_shape_parameters(source->shape), samples = source->head.samples;
     double *x = malloc(PARAMETER_BLOCK * n * sizeof *x);
     if (!x)
         return galv_fail(GALV_ERROR_MEMORY, "a block of parameters");
-    for (size_t r = 0; r < samples; r++) {
+    galv_status status = GALV_OK;
+    for (size_t r = 0; r < samples && !status; r++) {
         galv_shape_source_parameters(source, r, x);
         cblas_daxpy((blasint)n, 1 / (double)samples, x, 1, mean, 1);
+        if (r % PARAMETER_BLOCK == 0)
+            status = galv_stage_report(stage, 0.5 * (double)r / (double)samples);
     }
-    for (size_t first = 0; first < samples; first += PARAMETER_BLOCK) {
+    for (size_t first = 0; first < samples && !status; first += PARAMETER_BLOCK) {
         size_t rest = samples - first, count = rest < PARAMETER_BLOCK ? rest : PARAMETER_BLOCK;
         for (size_t r = 0; r < count; r++) {
             galv_shape_source_parameters(source, first + r, x + r * n);
@@ -34,9 +37,10 @@ static galv_status parameter_moments(const galv_shape_source *source, bool centr
         }
         cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, (blasint)n, (blasint)count,
                     1 / (double)samples, x, (blasint)n, 1, a, (blasint)n);
+        status = galv_stage_report(stage, 0.5 + 0.5 * (double)(first + count) / (double)samples);
     }
     free(x);
-    return GALV_OK;
+    return status;
 }
 
 /* R A R^T from the upper triangle in qr (active x n); b: n x n, full, on return. */
@@ -117,7 +121,7 @@ galv_status galv_spectrum_factored(galv_stream *stream, const galv_shape_source 
         return galv_fail(GALV_ERROR_MEMORY, "%zu functions on %zu coordinates", n, active);
     }
     if (!status)
-        status = parameter_moments(source, goal->centre, x, a);
+        status = parameter_moments(source, goal->centre, x, a, &stream->stage);
     if (!status) {
         load_functions(stream, functions, n, qr);
         find_mean(stream, n, qr, x, spectrum->mean);

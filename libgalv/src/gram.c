@@ -24,6 +24,7 @@ static void multiply(const galv_stream *stream, const double *kept, size_t width
 static galv_status fill(galv_stream *stream, double *gram, galv_sums *sums)
 {
     size_t samples = stream->source->samples, block = stream->block;
+    size_t blocks = (samples + block - 1) / block, pairs = blocks * (blocks + 1) / 2, done = 0;
     double *kept = malloc(block * stream->source->stored * sizeof *kept);
     galv_status status =
         kept ? GALV_OK : galv_fail(GALV_ERROR_MEMORY, "a second block of %zu samples", block);
@@ -41,9 +42,8 @@ static galv_status fill(galv_stream *stream, double *gram, galv_sums *sums)
                 memcpy(kept, stream->rows, count * width * sizeof *kept);
             }
             multiply(stream, kept, width, i, nkept, j, count, gram);
+            status = galv_stage_report(&stream->stage, (double)++done / (double)pairs);
         }
-        if (!status)
-            status = galv_stream_report(stream, i + nkept);
     }
     free(kept);
     return status;
@@ -95,6 +95,7 @@ static galv_status back_to_coordinates(galv_stream *stream, const double *v,
     spectrum->vectors = calloc(active * known, sizeof *spectrum->vectors);
     if (!spectrum->vectors)
         return galv_fail(GALV_ERROR_MEMORY, "%zu eigenvectors of %zu coordinates", known, active);
+    galv_stage_next(&stream->stage, GALV_STAGE_BACK);
     for (size_t first = 0; first < samples; first += stream->block) {
         size_t rest = samples - first, count = rest < stream->block ? rest : stream->block;
         galv_status status = galv_stream_read(stream, first, count);
@@ -103,7 +104,7 @@ static galv_status back_to_coordinates(galv_stream *stream, const double *v,
         cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, (blasint)active, (blasint)known,
                     (blasint)count, 1, stream->rows, (blasint)active, v + first, (blasint)samples,
                     1, spectrum->vectors, (blasint)active);
-        status = galv_stage_report(&stream->stage, 1); /* to hear of a cancellation */
+        status = galv_stream_report(stream, first + count);
         if (status)
             return status;
     }

@@ -15,6 +15,7 @@
 enum { GROUPS = 10, ALL_GROUPS = (1 << GROUPS) - 1 };
 /* Of tenfold cross-validation, of four splits in half, and of every other sample. */
 enum { GROUP_SOLUTIONS = GROUPS + 4 + 1 };
+enum { COLUMNS = 512 }; /* of a product at once */
 
 typedef struct latent_pass {
     const galv_spectrum *spectrum;
@@ -206,8 +207,8 @@ static galv_status regress(latent_pass *pass, galv_model *model)
 /* Room for the eigenproblem of some of the groups. */
 typedef struct group_work {
     double *matrix, *vectors, *other, *values; /* pairs x pairs each, and 2 pairs */
-    galv_stage *stage;                         /* told of each solution */
-    double solved;
+    galv_stage *stage;
+    int solved; /* of GROUP_SOLUTIONS */
 } group_work;
 
 /* Sums the groups in `mask`: a lower triangle. Returns their energy. */
@@ -224,11 +225,13 @@ static double add_groups(const latent_pass *pass, unsigned mask, double *matrix)
     return energy;
 }
 
+/* The solutions left share what is left of the work; the last tenth of each is for the products. */
 static galv_status group_eigen(const latent_pass *pass, unsigned mask, group_work *w)
 {
     add_groups(pass, mask, w->matrix);
-    galv_status status = galv_eigen_dense(pass->pairs, w->matrix, w->values, w->vectors, NULL);
-    return status ? status : galv_stage_report(w->stage, ++w->solved / (double)GROUP_SOLUTIONS);
+    galv_stage_share(w->stage, 0.9 / (GROUP_SOLUTIONS - w->solved++), 1);
+    galv_status status = galv_eigen_dense(pass->pairs, w->matrix, w->values, w->vectors, w->stage);
+    return status ? status : galv_stage_report(w->stage, 1);
 }
 
 /* Energy of the groups outside `mask`, and what of it the leading m modes of the groups inside
@@ -249,8 +252,14 @@ static galv_status hold_out(const latent_pass *pass, unsigned mask, size_t m, gr
     if (status)
         return status;
     result->energy = add_groups(pass, ALL_GROUPS & ~mask, w->matrix);
-    cblas_dsymm(CblasColMajor, CblasLeft, CblasLower, pairs, (blasint)m, 1, w->matrix, pairs,
-                w->vectors, pairs, 0, w->other, pairs);
+    for (size_t c = 0; c < m && !status; c += COLUMNS) {
+        size_t count = m - c < COLUMNS ? m - c : COLUMNS, at = c * pass->pairs;
+        cblas_dsymm(CblasColMajor, CblasLeft, CblasLower, pairs, (blasint)count, 1, w->matrix,
+                    pairs, w->vectors + at, pairs, 0, w->other + at, pairs);
+        status = galv_stage_report(w->stage, 1); /* to hear of a cancellation */
+    }
+    if (status)
+        return status;
     result->kept = cblas_ddot((blasint)(pass->pairs * m), w->vectors, 1, w->other, 1);
     return GALV_OK;
 }
@@ -384,6 +393,16 @@ void galv_latent_geometry(const galv_spectrum *spectrum, size_t count, const siz
     model->retained_geometry = model->trace_geometry > 0 ? fmin(sum / model->trace_geometry, 1) : 0;
 }
 
+/* Of what is left, the share of the projection: 2 N L p + N p^2 operations, and the reading of N L
+ * numbers at some 50 each, beside the 15 dense decompositions of the confidence at 10 p^3. */
+static double projection_share(const latent_pass *pass, size_t samples)
+{
+    double n = (double)samples, p = (double)pass->pairs, l = (double)pass->spectrum->active;
+    double project = n * l * (2 * p + 50) + n * p * p;
+    double confidence = samples < 2 * GROUPS ? 0 : GROUP_SOLUTIONS * 10 * p * p * p;
+    return project / (project + confidence);
+}
+
 galv_status galv_latent_pass(galv_stream *stream, const galv_spectrum *spectrum,
                              const galv_shape_source *parameters, galv_model *model)
 {
@@ -391,9 +410,8 @@ galv_status galv_latent_pass(galv_stream *stream, const galv_spectrum *spectrum,
     galv_status status = latent_start(&pass, stream, spectrum, model);
     if (status)
         return status;
-    galv_stage_next(&stream->stage, GALV_STAGE_PROJECTED);
+    galv_stage_share(&stream->stage, projection_share(&pass, model->samples), 1);
     status = project_samples(&pass, stream, parameters, model);
-    galv_stage_next(&stream->stage, 1);
     if (!status) {
         galv_latent_box(model);
         galv_latent_geometry(spectrum, pass.nappended, pass.places,

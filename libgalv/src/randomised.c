@@ -13,6 +13,8 @@
 /* Vectors beyond those wanted speed up the convergence of the last ones (Halko, Martinsson and
  * Tropp, SIAM Review 53, 2011). */
 enum { OVERSAMPLING = 8, MOST_PASSES = 24 };
+/* A pass, of what is left: nobody knows how many there will be. */
+#define SHARE_OF_A_PASS 0.1
 
 /* Residual, relative to the largest eigenvalue; the eigenvalue's own error is of the order of its
  * square. */
@@ -31,6 +33,7 @@ static galv_status covariance_apply(void *user_data, size_t b, const double *v, 
     pass *p = user_data;
     galv_stream *stream = p->stream;
     size_t samples = stream->source->samples, n = p->spectrum->active;
+    galv_stage_share(&stream->stage, SHARE_OF_A_PASS, GALV_STAGE_SOLVED);
     galv_pad(n, b, v, p->v);
     memset(p->y, 0, n * galv_padded(b) * sizeof *p->y);
     for (size_t first = 0; first < samples; first += stream->block) {
@@ -65,6 +68,7 @@ static galv_status sketch(galv_stream *stream, size_t b, uint64_t seed, double *
                           galv_sums *sums)
 {
     size_t samples = stream->source->samples, ld = galv_padded(b);
+    galv_stage_share(&stream->stage, SHARE_OF_A_PASS, GALV_STAGE_SOLVED);
     double *omega = calloc(stream->block * ld, sizeof *omega);
     double *image = calloc(stream->source->stored * ld, sizeof *image);
     galv_status status =

@@ -176,13 +176,24 @@ static galv_status solve_krylov(size_t n, double *a, size_t nev, uint64_t seed, 
     return GALV_OK;
 }
 
+/* Pairs to ask for next: twice as many, or at least what the target needs if all further values
+ * were as large as the last one. */
+static size_t more_pairs(const galv_goal *goal, size_t nev, const double *values, double trace)
+{
+    double lacking = goal->variance * trace;
+    for (size_t k = 0; k < nev; k++)
+        lacking -= values[k];
+    double least = (double)nev + ceil(lacking / values[nev - 1]);
+    return least > 2 * (double)nev ? (size_t)fmin(least, 0x1p32) : 2 * nev;
+}
+
 galv_status galv_spectrum_matrix(size_t n, double *a, double trace, const galv_goal *goal,
                                  size_t *known, double **values, double **vectors,
                                  double **residuals, galv_stage *stage)
 {
-    galv_stage_next(stage, GALV_STAGE_SOLVED);
     size_t nev = goal->modes > goal->spectrum ? goal->modes : goal->spectrum;
-    for (;; nev *= 2) {
+    for (;;) {
+        galv_stage_next(stage, GALV_STAGE_SOLVED);
         bool dense = n <= DENSE_ORDER || 3 * nev >= n;
         size_t wanted = dense ? n : nev;
         galv_status status = allocate_pairs(n, wanted, wanted, values, vectors, residuals);
@@ -197,6 +208,7 @@ galv_status galv_spectrum_matrix(size_t n, double *a, double trace, const galv_g
         /* Fewer pairs than asked for: that is the rank. */
         if (dense || *known < nev || galv_goal_modes(goal, *known, *values, trace))
             return GALV_OK;
+        nev = more_pairs(goal, nev, *values, trace);
         free_pairs(values, vectors, residuals);
     }
 }

@@ -8,8 +8,14 @@ void galv_stage_next(galv_stage *stage, double to)
 {
     if (!stage)
         return;
-    stage->from = stage->to;
-    stage->to = to;
+    stage->from = stage->told;
+    stage->to = fmax(to, stage->told);
+}
+
+void galv_stage_share(galv_stage *stage, double share, double to)
+{
+    if (stage)
+        galv_stage_next(stage, stage->told + share * (to - stage->told));
 }
 
 galv_status galv_stage_report(galv_stage *stage, double done)

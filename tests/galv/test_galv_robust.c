@@ -235,6 +235,87 @@ static void test_progress_cancels(void)
     galv_shape_free(shape);
 }
 
+/* What a caller was told: how often, the last fraction, the largest step, and where to cancel. */
+typedef struct told {
+    int calls;
+    double last, step, cancel;
+} told;
+
+static int listen(void *user_data, double fraction)
+{
+    told *t = user_data;
+    CU_ASSERT_TRUE(fraction >= t->last && fraction <= 1);
+    t->step = fmax(t->step, fraction - t->last);
+    t->last = fraction;
+    t->calls++;
+    return fraction > t->cancel;
+}
+
+/* Samples without any structure: all pairs are kept, and the groups of the confidence are of an
+ * order that takes long. */
+static int noise(void *user_data, size_t first, size_t count, double *rows)
+{
+    size_t length = *(size_t *)user_data;
+    for (size_t i = 0; i < count * length; i++) {
+        uint64_t x = (first * length + i + 1) * UINT64_C(0x9e3779b97f4a7c15);
+        x = (x ^ x >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
+        x = (x ^ x >> 27) * UINT64_C(0x94d049bb133111eb);
+        rows[i] = (double)(x >> 11) * 0x1p-53 - 0.5;
+    }
+    return 0;
+}
+
+static galv_status build_noise(size_t count, size_t length, galv_method method, told *t)
+{
+    galv_data data = {.count = count, .coordinates = length, .rows = noise, .user_data = &length};
+    galv_options options;
+    galv_options_init(&options);
+    options.variance = method == GALV_METHOD_RANDOMISED ? 0.2 : 0.9999;
+    options.method = method;
+    options.workspace = method == GALV_METHOD_RANDOMISED ? 1 << 19 : 9 << 19; /* for small blocks */
+    options.progress = listen;
+    options.progress_user_data = t;
+    galv_model *model = NULL;
+    galv_status status = galv_build_data(&data, &options, &model);
+    galv_model_free(model);
+    return status;
+}
+
+/* 2 % of the work at most between two calls, all the way. */
+static void test_progress_steps(void)
+{
+    told all = {.cancel = 2}, late = {.cancel = 0.9}, passes = {.cancel = 2};
+    CU_ASSERT_EQUAL(build_noise(3700, 520, GALV_METHOD_COVARIANCE, &all), GALV_OK);
+    CU_ASSERT_TRUE(all.last == 1 && all.step <= 0.02);
+    CU_ASSERT_EQUAL(build_noise(520, 1000, GALV_METHOD_GRAM, &late), GALV_ERROR_CANCELLED);
+    CU_ASSERT_TRUE(late.last > 0.9 && late.last < 0.92 && late.step <= 0.02);
+    CU_ASSERT_EQUAL(build_noise(8000, 100, GALV_METHOD_RANDOMISED, &passes), GALV_OK);
+    CU_ASSERT_TRUE(passes.last == 1 && passes.step <= 0.02);
+}
+
+static void test_progress_extends(void)
+{
+    galv_shape *shape = fixture_shape(GALV_COMBINATION_RECURSIVE, 0.03);
+    galv_options options;
+    galv_options_init(&options);
+    galv_model *model, *more = NULL;
+    CU_ASSERT_EQUAL_FATAL(build(shape, galv_uniform(300, 1), &options, &model), GALV_OK);
+    galv_sampling sampling = galv_uniform(3000, 1);
+    sampling.first = 300;
+    told all = {.cancel = 2}, early = {.cancel = 0.3};
+    options.workspace = (size_t)2 << 20;
+    options.progress = listen;
+    options.progress_user_data = &all;
+    CU_ASSERT_EQUAL(galv_extend(model, shape, sampling, &options, &more), GALV_OK);
+    CU_ASSERT_TRUE(all.last == 1 && all.step <= 0.02);
+    galv_model_free(more);
+    options.progress_user_data = &early;
+    CU_ASSERT_EQUAL(galv_extend(model, shape, sampling, &options, &more), GALV_ERROR_CANCELLED);
+    CU_ASSERT_TRUE(early.last > 0.3 && early.last < 0.32);
+    galv_model_free(model);
+    galv_shape_free(shape);
+}
+
 static void test_wrong_arguments(void)
 {
     galv_shape *shape = fixture_shape(GALV_COMBINATION_RECURSIVE, 0.03), *other = NULL;
@@ -315,6 +396,8 @@ static const struct check_case cases[] = {
     {"the sample that is not finite is named", test_bad_sample_is_named},
     {"a callback that refuses", test_callback_refuses},
     {"progress and cancelling", test_progress_cancels},
+    {"steps of the progress", test_progress_steps},
+    {"progress of an extension", test_progress_extends},
     {"wrong arguments", test_wrong_arguments},
     {"nothing moves", test_nothing_moves},
     {"the uniform stream", test_uniform_stream},

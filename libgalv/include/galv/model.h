@@ -74,7 +74,8 @@ typedef struct galv_extra {
     double reserved[8];    /**< 0: room for members of later releases */
 } galv_extra;
 
-/** Called between blocks of samples with the fraction done, 0..1; non-zero cancels. */
+/** Called with the fraction done, 0..1, which never falls: after each block of samples, and after
+ * each column, block of vectors or iteration of a decomposition; non-zero cancels. */
 typedef int (*galv_progress)(void *user_data, double fraction);
 
 /** Options of galv_build(); fill with galv_options_init() first. */
