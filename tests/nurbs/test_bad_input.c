@@ -253,7 +253,7 @@ static void bodies_and_files(void)
     REFUSED(nurbs_patches_write_iges(patches, "nothing.igs"), NULL);
     REFUSED(nurbs_patches_write(patches, "/nonexistent/x.json"), NULL);
     REFUSED(nurbs_patches_write(patches, "x.step"), NULL);
-    REFUSED(nurbs_patches_write_stl(patches, 0, "x.stl"), NULL);
+    REFUSED(nurbs_patches_write_stl(patches, -1, "x.stl"), NULL);
     REFUSED(nurbs_patches_write_vtu(patches, -1, "x.vtu"), NULL);
     REFUSED(nurbs_patches_read("/nonexistent/x.json", &read), read);
     REFUSED(nurbs_patches_read("/nonexistent/x.igs", &read), read);

@@ -152,7 +152,7 @@ static void stl_holds_all_triangles(void)
     /* 2 x 2 and 1 x 1 spans, 3 parts a span, 2 triangles a cell, 50 bytes each. */
     CU_ASSERT_EQUAL(file_size(path), 84 + 50 * 2 * (36 + 9));
     unlink(path);
-    CU_ASSERT_EQUAL(nurbs_patches_write_stl(patches, 0, path), NURBS_ERROR_ARGUMENT);
+    CU_ASSERT_EQUAL(nurbs_patches_write_stl(patches, 1001, path), NURBS_ERROR_ARGUMENT);
     CU_ASSERT_EQUAL(file_size(path), -1);
     nurbs_patches_free(patches);
 }

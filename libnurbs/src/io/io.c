@@ -5,9 +5,6 @@
 #include <ctype.h>
 #include <string.h>
 
-/* Parts a knot span in files for looking. */
-enum { LOOKING_PARTS = 4 };
-
 /* Whether the path ends in `extension` (lower case, with its dot), in capitals or not. */
 static int has_extension(const char *path, const char *extension)
 {
@@ -53,9 +50,9 @@ nurbs_status nurbs_patches_write(const nurbs_patches *patches, const char *path)
     if (has_extension(path, ".step") || has_extension(path, ".stp"))
         return nurbs_patches_write_step(patches, path);
     if (has_extension(path, ".stl"))
-        return nurbs_patches_write_stl(patches, LOOKING_PARTS, path);
+        return nurbs_patches_write_stl(patches, 0, path);
     if (has_extension(path, ".vtu"))
-        return nurbs_patches_write_vtu(patches, LOOKING_PARTS, path);
+        return nurbs_patches_write_vtu(patches, 0, path);
     if (has_extension(path, ".csv"))
         return nurbs_patches_write_points(patches, path);
     return nurbs_fail(NURBS_ERROR_ARGUMENT,

@@ -9,7 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_PARTS = 1000 };
+enum { MAX_PARTS = 1000, LEAST_PARTS = 4, MOST_TRIANGLES = 50000 };
+
+/* Of the extent: how far chords may be from the surface where the parts are chosen by rule. */
+static const double fine_enough = 2e-5;
 
 /* Points of one patch on `parts` parts of every knot span. */
 typedef struct mesh {
@@ -49,13 +52,66 @@ static nurbs_status mesh_create(const nurbs_surface *surface, int parts, mesh *g
     return status;
 }
 
+/* The largest distance of a chord from the curve over it, an eighth of the second difference of
+ * three neighbours in a span. */
+static double largest_sag(const mesh *grid, size_t parts)
+{
+    double sag = 0;
+    for (int d = 0; d < 2; d++) {
+        size_t step = 3 * (d ? 1 : grid->n[1]);
+        for (size_t i = 0; i < grid->n[0] * grid->n[1]; i++) {
+            size_t at = d ? i % grid->n[1] : i / grid->n[1];
+            const double *p = grid->points + 3 * i;
+            double square = 0;
+            for (size_t c = 0; at % parts != 0 && c < 3; c++) {
+                double second = (p - step)[c] - 2 * p[c] + (p + step)[c];
+                square += second * second;
+            }
+            sag = fmax(sag, 0.125 * sqrt(square));
+        }
+    }
+    return sag;
+}
+
+/* One number for all patches, so that neighbours with the same knots share their nodes: as many as
+ * make chords fine enough, or as the number of triangles allows. */
+static nurbs_status choose_parts(const nurbs_patches *patches, int *parts)
+{
+    double sag = 0, low[3] = {INFINITY, INFINITY, INFINITY},
+           high[3] = {-INFINITY, -INFINITY, -INFINITY}, extent = 0, triangles = 0;
+    for (size_t k = 0; k < nurbs_patches_count(patches); k++) {
+        mesh grid;
+        nurbs_status status = mesh_create(nurbs_patches_get(patches, k), LEAST_PARTS, &grid);
+        if (status != NURBS_OK)
+            return status;
+        sag = fmax(sag, largest_sag(&grid, LEAST_PARTS));
+        triangles += 2 * (double)((grid.n[0] - 1) * (grid.n[1] - 1));
+        for (size_t i = 0; i < 3 * grid.n[0] * grid.n[1]; i++) {
+            low[i % 3] = fmin(low[i % 3], grid.points[i]);
+            high[i % 3] = fmax(high[i % 3], grid.points[i]);
+        }
+        free(grid.points);
+    }
+    for (int c = 0; c < 3; c++)
+        extent = fmax(extent, high[c] - low[c]);
+    double wanted = extent > 0 ? LEAST_PARTS * sqrt(sag / (fine_enough * extent)) : 1,
+           allowed = LEAST_PARTS * sqrt(MOST_TRIANGLES / fmax(triangles, 1));
+    *parts = (int)fmin(fmax(fmin(ceil(wanted), floor(allowed)), LEAST_PARTS), MAX_PARTS);
+    return NURBS_OK;
+}
+
 static nurbs_status meshes_create(const nurbs_patches *patches, int parts, mesh **meshes)
 {
     size_t count = nurbs_patches_count(patches);
     *meshes = NULL;
-    if (parts < 1 || parts > MAX_PARTS)
-        return nurbs_fail(NURBS_ERROR_ARGUMENT, "%d parts a knot span, expected 1 to %d", parts,
+    if (parts < 0 || parts > MAX_PARTS)
+        return nurbs_fail(NURBS_ERROR_ARGUMENT, "%d parts a knot span, expected 0 to %d", parts,
                           MAX_PARTS);
+    if (parts == 0) {
+        nurbs_status status = choose_parts(patches, &parts);
+        if (status != NURBS_OK)
+            return status;
+    }
     if (count == 0)
         return nurbs_fail(NURBS_ERROR_ARGUMENT, "no patches to write");
     *meshes = calloc(count, sizeof **meshes);
