@@ -99,6 +99,13 @@ static void test_irregular_knots(void)
     int nu = options.elements_u, nv = options.elements_v, unknowns = (nu + 3) * (nv + 3);
     CHECK_CLOSE((double)nu / nv, 5.0, 0.5);
     CU_ASSERT_TRUE(unknowns >= 400 && unknowns < 480);
+    /* Asked for as the command does, the same mesh. */
+    igabem_options_init(&options);
+    options.froude = 0.3;
+    igabem_options_refine(hull, 400, &options);
+    CU_ASSERT_EQUAL(igabem_options_freeze(hull, &options), IGABEM_OK);
+    CU_ASSERT_TRUE(options.refine == 1 && options.refine_v == 1);
+    CU_ASSERT_TRUE(options.elements_u == nu && options.elements_v == nv);
     igabem_options same = setting(nu, nv);
     CHECK_RELATIVE(cw_of(hull, &options), cw_of(plain, &same), 1e-5);
     options.elements_u = 5;

@@ -137,19 +137,25 @@ static double count_own(const igabem_hull *hull, int least_degree, const int ele
     return sum;
 }
 
-/* Knots that are crowded in some places and far apart in others waste unknowns here and lack them
- * there, and they move when the shape does: as many uniform ones as the hull has, or, where it has
- * few, enough. */
-static void choose_elements(const igabem_hull *hull, igabem_options *options)
+static int is_uneven(const igabem_hull *hull)
 {
-    int own = 0, uniform[2] = {0, 0};
+    int own = 0;
     for (size_t p = 0; p < hull->n; p++)
         for (int d = 0; d < 2; d++)
             own |= hull->patches[p].span_ratio[d] > irregular_spans;
+    return own;
+}
+
+/* Knots that are crowded in some places and far apart in others waste unknowns here and lack them
+ * there, and they move when the shape does: as many uniform ones as the hull has, or, where it has
+ * few, enough. */
+static void choose_elements(const igabem_hull *hull, size_t unknowns, igabem_options *options)
+{
+    int own = is_uneven(hull), uniform[2] = {0, 0};
     for (double factor = 1.0; own && factor < 16.0; factor *= 1.02) {
         for (int d = 0; d < 2; d++)
             uniform[d] = (int)lround(factor * hull->run_spans[d]);
-        if (count_own(hull, options->degree, uniform) >= (double)enough_unknowns)
+        if (count_own(hull, options->degree, uniform) >= (double)unknowns)
             break;
     }
     if (options->elements_u < 0)
@@ -234,7 +240,7 @@ igabem_status igabem_options_freeze(const igabem_hull *hull, igabem_options *opt
     igabem_status status = check(options);
     if (status != IGABEM_OK)
         return status;
-    choose_elements(hull, options);
+    choose_elements(hull, enough_unknowns, options);
     if (options->refine == 0)
         choose_refine(hull, options);
     if (options->refine_v == 0)
@@ -284,6 +290,12 @@ void igabem_options_refine(const igabem_hull *hull, size_t unknowns, igabem_opti
     int parts[2] = {1, 1};
     if (!hull || !options)
         return;
+    /* Knots of its own have what is asked, and are not divided once more. */
+    if (options->elements_u < 0 && options->elements_v < 0 && is_uneven(hull)) {
+        choose_elements(hull, unknowns, options);
+        options->refine = options->refine_v = 1;
+        return;
+    }
     while (count_unknowns(hull, options->degree, parts) < (double)unknowns &&
            parts[0] < MOST_PARTS && parts[1] < MOST_PARTS)
         parts[!along_is_due(hull, parts)]++;
