@@ -204,6 +204,43 @@ static void files_that_are_no_patches(void)
     nurbs_hull_free(hull);
 }
 
+/* A stern that is open above the water and closed below it, and a dome with a notch behind it:
+ * volumes of the surfaces that the triangles were made of. Facets are coarse, and cross the corners
+ * of both. */
+static void ends_of_coarse_facets(void)
+{
+    static const struct {
+        const char *name;
+        int parts;
+        double volume;
+    } hulls[] = {{"series60.offsets.csv", 2, 3e-3},
+                 {"series60.offsets.csv", 4, 1e-3},
+                 {"dtmb5415.json", 5, 1e-3}};
+    for (size_t k = 0; k < sizeof hulls / sizeof *hulls; k++) {
+        nurbs_hull *hull = NULL, *facets = NULL;
+        char source[256];
+        const char *path = scratch_file("ends.stl");
+        snprintf(source, sizeof source, "%s/hulls/%s", EXAMPLES_DIR, hulls[k].name);
+        CU_ASSERT_EQUAL_FATAL(nurbs_hull_read(source, NULL, &hull), NURBS_OK);
+        CU_ASSERT_EQUAL_FATAL(nurbs_patches_write_stl(nurbs_hull_full(hull), hulls[k].parts, path),
+                              NURBS_OK);
+        nurbs_status status = nurbs_hull_read(path, NULL, &facets);
+        remove(path);
+        if (status)
+            fprintf(stderr, "%s: %s\n", hulls[k].name, nurbs_last_error());
+        CU_ASSERT_EQUAL_FATAL(status, NURBS_OK);
+        const nurbs_hydrostatics *exact = nurbs_hull_hydrostatics(hull),
+                                 *made = nurbs_hull_hydrostatics(facets);
+        CHECK_RELATIVE(made->volume, exact->volume, hulls[k].volume);
+        CHECK_CLOSE(made->centroid[0], exact->centroid[0], 1e-3 * (exact->x_fore - exact->x_aft));
+        CHECK_CLOSE(made->transom_area, exact->transom_area, 1e-3 * exact->section_area_max);
+        if (exact->transom_area == 0)
+            CU_ASSERT_EQUAL(made->transom_area, 0);
+        nurbs_hull_free(facets);
+        nurbs_hull_free(hull);
+    }
+}
+
 static const struct check_case cases[] = {
     {"triangles of one side or both", triangles_of_one_side_or_both},
     {"a tolerance is kept or refused", a_tolerance_is_kept_or_refused},
@@ -211,6 +248,7 @@ static const struct check_case cases[] = {
     {"corners and decks", corners_and_decks},
     {"many patches become one", many_patches_become_one},
     {"files that are no patches", files_that_are_no_patches},
+    {"ends of coarse facets", ends_of_coarse_facets},
 };
 
 CHECK_MAIN("nurbs sections", cases)

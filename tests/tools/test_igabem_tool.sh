@@ -193,6 +193,17 @@ expect_code 2 "expected auto, lu or gmres" "$igabem" solve "$hulls/wigley.json" 
 [ $? -ne 0 ]
 check "without it on request" $?
 
+# Triangles of a hull make the waves of the hull (2 % asked).
+nurbs=$(dirname "$igabem")/nurbs
+if [ -x "$nurbs" ]; then
+  "$nurbs" convert "$hulls/bulb.json" "$work/bulb.stl"
+  for hull in "$hulls/bulb.json" "$work/bulb.stl"; do
+    "$igabem" solve "$hull" --fr 0.35 --elements 20,6 --no-sensitivity --json > "$work/json" 2> "$work/err"
+    check "solve $(basename "$hull")" $?
+    [ -n "${of_surface:-}" ] && expect_value cw "$of_surface" 2e-2
+    of_surface=$(awk '$1 == "\"cw\":" { gsub(",", "", $2); print $2; exit }' "$work/json")
+  done
+fi
 # A wedge with freeboard in two patches, the face at the stern with u upright.
 face='{"degree":[1,1],"size":[2,2],"knots":[[0,0,1,1],[0,0,1,1]],
   "points":[[0,0,0.03],[0,0.05,0.03],[0,0,-0.06],[0,0,-0.06]]}'

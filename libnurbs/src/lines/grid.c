@@ -6,9 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of a section's length: how far a corner may move to the next section; of the sections: how many
- * must have a corner that becomes a column. */
-static const double follows = 0.06, common = 0.08;
+/* Of a section's length: how far a corner may move to the next section, at once and for every
+ * extent between the two: facets of a tight bend have corners that jump from one to the next. */
+static const double follows = 0.06, at_once = 0.005, by_place = 3;
+/* Of the sections, and of the extent: how many must have a corner that becomes a column, and how
+ * far it must go; sections crowd where the hull is difficult. */
+static const double common = 0.08, goes = 0.03;
 
 enum { MOST_TRACKS = 64, LEAST_BAND = 3 };
 
@@ -30,13 +33,16 @@ static void tracks_free(tracks *t)
 }
 
 /* Takes the corner into a track that ends at one of the last two sections nearby, or begins one. */
-static nurbs_status follow(tracks *t, size_t sections, size_t i, double share)
+static nurbs_status follow(tracks *t, size_t sections, const line *const *lines, size_t i,
+                           double share)
 {
     track *best = NULL;
+    double extent = lines[sections - 1]->place - lines[0]->place;
     for (size_t k = 0; k < t->n; k++) {
         track *one = &t->track[k];
-        double away = fabs(one->share[one->last] - share);
-        if (one->last + 3 < i || one->last >= i || away > follows ||
+        double away = fabs(one->share[one->last] - share),
+               gap = (lines[i]->place - lines[one->last]->place) / extent;
+        if (one->last + 3 < i || one->last >= i || away > fmin(follows, at_once + by_place * gap) ||
             (best && away >= fabs(best->share[best->last] - share)))
             continue;
         best = one;
@@ -95,13 +101,34 @@ static bool keeps_apart(const track *a, const track *b, size_t n)
     return true;
 }
 
+/* Ends that are open above and closed below turn there: a column goes to it, from end to end. */
+static nurbs_status follow_closing(tracks *t, size_t n, const line *const *lines)
+{
+    double aft = lines[0]->closing, fore = lines[n - 1]->closing;
+    if (!(aft > 0 || fore > 0) || t->n == MOST_TRACKS)
+        return NURBS_OK;
+    double *share = malloc(n * sizeof *share);
+    if (!share)
+        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for the corners of %zu sections", n);
+    aft = aft > 0 ? aft : fore;
+    fore = fore > 0 ? fore : aft;
+    for (size_t k = 0; k < n; k++)
+        share[k] = aft + (fore - aft) * (lines[k]->place - lines[0]->place) /
+                             (lines[n - 1]->place - lines[0]->place);
+    t->track[t->n++] = (track){.last = n - 1, .count = n, .share = share};
+    return NURBS_OK;
+}
+
 /* The longest tracks that keep apart, from the deck down, to the front. */
-static void choose(tracks *t, size_t n, size_t *chosen)
+static void choose(tracks *t, size_t n, const line *const *lines, size_t *chosen)
 {
     *chosen = 0;
     qsort(t->track, t->n, sizeof *t->track, by_count);
     for (size_t k = 0; k < t->n && *chosen < NURBS_SECTIONS_CORNERS; k++) {
-        bool good = (double)t->track[k].count >= fmax(3, common * (double)n);
+        double length = lines[t->track[k].last]->place - lines[t->track[k].first]->place,
+               extent = lines[n - 1]->place - lines[0]->place;
+        bool good =
+            (double)t->track[k].count >= fmax(3, common * (double)n) && length >= goes * extent;
         extend(&t->track[k], n);
         for (size_t i = 0; i < *chosen && good; i++)
             good = keeps_apart(&t->track[k], &t->track[i], n);
@@ -170,9 +197,11 @@ nurbs_status lines_grid(size_t n, const line *const *lines, size_t columns, nurb
     *grid = NULL;
     for (size_t i = 0; i < n && !status; i++)
         for (size_t k = 0; k < lines[i]->corners && !status; k++)
-            status = follow(&t, n, i, lines[i]->corner[k]);
+            status = follow(&t, n, lines, i, lines[i]->corner[k]);
     if (!status)
-        choose(&t, n, &chosen);
+        status = follow_closing(&t, n, lines);
+    if (!status)
+        choose(&t, n, lines, &chosen);
     double *points = malloc(3 * n * columns * sizeof *points);
     if (!status && !points)
         status = nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu sections", n);

@@ -32,6 +32,8 @@ typedef struct line {
     double *points, *along; /* along[n]: length from the deck */
     size_t corners;
     double corner[NURBS_SECTIONS_CORNERS]; /* shares of the length, increasing */
+    double closing; /* of the last section of an end that is open above and closed below: the share
+                       at which it meets the centre plane; 0: of no other */
 } line;
 void line_free(line *line);
 

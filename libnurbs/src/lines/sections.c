@@ -6,6 +6,8 @@
 #include "mesh/mesh.h"
 
 #include <nurbs/fit.h>
+#include <nurbs/modify.h>
+#include <nurbs/section.h>
 
 #include <math.h>
 #include <stdlib.h>
@@ -19,6 +21,7 @@ enum {
     MOST_KINKS = 16,
     ROUNDS = 7,
     MOST_DROPPED = 12,
+    FOLD_PARTS = 4,
     PARTS_U = 3, /* places between rows and between columns */
     PARTS_V = 2
 };
@@ -33,8 +36,11 @@ static const double skin_share[2] = {0.8, 0.5}, light_share[2] = {0.2, 0.45};
 static const double end_step = 1e-3;
 /* Breadths at the two places of an end that closes: as roots of the distance, or steeper. */
 static const double closes = 1.5;
-static const double least_gap = 4e-4; /* of the extent, between sections */
-static const double near_end = 1e-4;  /* of the extent: where an open end is cut */
+static const double helps = 0.9;        /* of the deviation: what a round should leave at most */
+static const double least_gap = 4e-4;   /* of the extent, between sections */
+static const double near_end = 1e-4;    /* of the extent: where an open end is cut */
+static const double half_closed = 0.05; /* of its length: what is closed and open of such an end */
+static const double closed = 1e-5; /* of the extent: how near the centre plane a closed end is */
 
 typedef struct work {
     const nurbs_mesh *mesh;
@@ -42,6 +48,7 @@ typedef struct work {
     sheets sheets;
     mesh_distance *distance;
     const projector *onto; /* of patches; NULL: triangles are the hull */
+    int attempt;           /* 1: twice as many sections and points to begin with */
     size_t dropped;        /* sections next to the ends that folded the surface */
     size_t n;              /* lines, by place */
     line *line[MOST + MOST_KINKS + 2];
@@ -116,6 +123,22 @@ static double widest(const line *l)
     return y;
 }
 
+/* What is nearly closed of an end is closed. */
+static void close_end(line *l, double nearly)
+{
+    size_t open = 0;
+    for (size_t k = 0; k < l->n; k++)
+        if (l->points[3 * k + 1] < nearly)
+            l->points[3 * k + 1] = 0;
+        else
+            open = k + 1;
+    if (open == l->n)
+        return;
+    double share = l->along[open] / l->along[l->n - 1];
+    if (share > half_closed && share < 1 - half_closed)
+        l->closing = share;
+}
+
 /* The last section of an end: its outline if the hull closes there, else its edge. */
 static nurbs_status add_end(work *w, int end)
 {
@@ -148,10 +171,7 @@ static nurbs_status add_end(work *w, int end)
         free(last);
         return status;
     }
-    /* What is nearly closed of an end is closed. */
-    for (size_t k = 0; k < last->n; k++)
-        if (last->points[3 * k + 1] < 2 * near_end * s->extent)
-            last->points[3 * k + 1] = 0;
+    close_end(last, 2 * near_end * s->extent);
     last->place = tip;
     insert(w, last);
     return NURBS_OK;
@@ -161,7 +181,7 @@ static nurbs_status add_end(work *w, int end)
 static nurbs_status first_rows(work *w)
 {
     double low = w->sheets.tip[0], high = w->sheets.tip[1], kink[MOST_KINKS];
-    size_t rows = w->options.rows ? w->options.rows : FIRST_ROWS, kinks = 0;
+    size_t rows = w->options.rows ? w->options.rows : (size_t)FIRST_ROWS << w->attempt, kinks = 0;
     nurbs_status status = add_end(w, 0);
     if (!status)
         status = add_end(w, 1);
@@ -300,10 +320,36 @@ static nurbs_status add_rows(work *w, size_t *added)
     return status;
 }
 
+/* Whether the points of the first and the last section that lie in the centre plane are there on
+ * the surface: an end that is closed below and open above would open when knots are dropped. */
+static nurbs_status check_ends(const work *w, size_t columns)
+{
+    const nurbs_sections *out = w->out;
+    for (int end = 0; end < 2; end++) {
+        size_t row = end ? w->n - 1 : 0;
+        for (size_t j = 0; j < columns; j++) {
+            double uv[2] = {out->u[row], out->v[j]}, p[3];
+            if (nurbs_grid_points(out->grid)[3 * (row * columns + j) + 1] != 0)
+                continue;
+            nurbs_status status = nurbs_surface_eval(out->surface, 0, 1, uv, p);
+            if (status)
+                return status;
+            if (fabs(p[1]) > closed * w->sheets.extent)
+                return nurbs_fail(NURBS_ERROR_NUMERIC, "the end at x = %.6g m opens to y = %.3g m",
+                                  p[0], p[1]);
+        }
+    }
+    return NURBS_OK;
+}
+
 static nurbs_status lighten(work *w, size_t columns)
 {
     nurbs_status status = skin(w, columns, true);
-    /* The light one may overshoot the centre plane by more than its share. */
+    if (!status)
+        status = nurbs_surface_check_fold(w->out->surface, NULL);
+    if (!status)
+        status = check_ends(w, columns);
+    /* The light one may overshoot the centre plane by more than its share, open an end or fold. */
     if (status == NURBS_ERROR_NUMERIC || status == NURBS_ERROR_GEOMETRY)
         status = skin(w, columns, false);
     if (!status)
@@ -320,7 +366,8 @@ static nurbs_status lighten(work *w, size_t columns)
 static nurbs_status refine(work *w)
 {
     const nurbs_sections_options *o = &w->options;
-    size_t columns = o->columns ? o->columns : FIRST_COLUMNS;
+    size_t columns = o->columns ? o->columns : (size_t)FIRST_COLUMNS << w->attempt;
+    double last = INFINITY;
     for (int round = 0;; round++) {
         size_t added = 0;
         double within = skin_share[w->onto != NULL] * o->tolerance;
@@ -331,8 +378,12 @@ static nurbs_status refine(work *w)
             status = measure(w, columns);
         if (status || w->out->deviation <= within)
             return status ? status : lighten(w, columns);
-        bool more = !o->columns && w->column_error > within && 3 * columns / 2 <= MOST / 2;
-        if (round < ROUNDS && !o->rows)
+        /* Where rows no longer help it is for want of columns. */
+        bool stuck = round > 0 && w->out->deviation > helps * last,
+             more =
+                 !o->columns && (w->column_error > within || stuck) && 3 * columns / 2 <= MOST / 2;
+        last = w->out->deviation;
+        if (round < ROUNDS && !o->rows && !(stuck && more))
             status = add_rows(w, &added);
         if (status)
             return status;
@@ -360,8 +411,19 @@ static nurbs_status check(const nurbs_sections_options *o)
     return NURBS_OK;
 }
 
-static nurbs_status make(const nurbs_mesh *mesh, const projector *onto,
-                         const nurbs_sections_options *options, nurbs_sections *sections)
+/* Cutting at the water divides spans, and finds folds that are narrower than a span. */
+static bool is_smooth(const nurbs_surface *surface)
+{
+    nurbs_surface *fine = NULL;
+    bool smooth = nurbs_surface_refine(surface, FOLD_PARTS, &fine) == NURBS_OK &&
+                  nurbs_surface_check_fold(fine, NULL) == NURBS_OK;
+    nurbs_surface_free(fine);
+    return smooth;
+}
+
+static nurbs_status attempt(const nurbs_mesh *mesh, const projector *onto,
+                            const nurbs_sections_options *options, int number,
+                            nurbs_sections *sections)
 {
     work *w = calloc(1, sizeof *w);
     if (!w)
@@ -370,6 +432,7 @@ static nurbs_status make(const nurbs_mesh *mesh, const projector *onto,
     w->onto = onto;
     w->out = sections;
     w->options = *options;
+    w->attempt = number;
     nurbs_status status = check(&w->options);
     if (!status)
         status = sheets_create(mesh, &w->sheets);
@@ -386,6 +449,27 @@ static nurbs_status make(const nurbs_mesh *mesh, const projector *onto,
     if (status)
         nurbs_sections_free(sections);
     return status;
+}
+
+/* Blunt ends and notches that few sections fold, or miss, are tried again with twice as many; what
+ * comes out of that is taken if it is better. */
+static nurbs_status make(const nurbs_mesh *mesh, const projector *onto,
+                         const nurbs_sections_options *options, nurbs_sections *sections)
+{
+    nurbs_sections more = {0};
+    nurbs_status status = attempt(mesh, onto, options, 0, sections);
+    bool surface = status == NURBS_OK;
+    if ((surface && is_smooth(sections->surface)) || options->rows || options->columns ||
+        (!surface && status != NURBS_ERROR_GEOMETRY && status != NURBS_ERROR_NUMERIC))
+        return status;
+    nurbs_status again = attempt(mesh, onto, options, 1, &more);
+    if (!again && (!surface || is_smooth(more.surface))) {
+        nurbs_sections_free(sections);
+        *sections = more;
+        return NURBS_OK;
+    }
+    nurbs_sections_free(&more);
+    return surface ? NURBS_OK : again;
 }
 
 nurbs_status nurbs_mesh_sections(const nurbs_mesh *mesh, const nurbs_sections_options *options,

@@ -13,6 +13,8 @@
  * over the third; a keel lies within the fourth of it. */
 static const double same = 1e-7, join = 2e-3, bridge = 0.06, centre = 2e-4;
 
+enum { BRIDGE_PARTS = 32 };
+
 /* A deck runs inboard, flatter than this slope, over this share of the half breadth. */
 static const double deck_slope = 0.35, deck_share = 0.05;
 
@@ -155,6 +157,20 @@ static void append(pieces *p, size_t at, double near, line *l)
     }
 }
 
+/* Along the centre plane the sheet goes on to the next piece, on an end its outline. */
+static void follow_sheet(const sheets *s, double place, const double to[3], line *l)
+{
+    double from[3], away = distance3(l->points + 3 * (l->n - 1), to);
+    memcpy(from, l->points + 3 * (l->n - 1), sizeof from);
+    for (int k = 1; k < BRIDGE_PARTS && away > join * s->extent; k++) {
+        double t = (double)k / BRIDGE_PARTS, z = from[2] + t * (to[2] - from[2]),
+               *q = l->points + 3 * l->n++;
+        q[0] = sheets_x(s, place, z);
+        q[1] = from[1] + t * (to[1] - from[1]);
+        q[2] = z;
+    }
+}
+
 /* A line from keel to deck may end with a deck: from the side inboard, and flat. */
 static void leave_out_deck(line *l, double kink_angle)
 {
@@ -199,12 +215,17 @@ static nurbs_status order(pieces *p, const sheets *s, double place, line *l, dou
                           "the section at x = %.6g m has no end at the keel in the centre plane: "
                           "expected a hull that reaches it",
                           place);
-    l->points = malloc((3 * p->used + 3) * sizeof *l->points);
-    l->along = malloc((p->used + 1) * sizeof *l->along);
+    size_t room = p->used + BRIDGE_PARTS * p->n;
+    l->points = malloc((3 * room + 3) * sizeof *l->points);
+    l->along = malloc((room + 1) * sizeof *l->along);
     if (!l->points || !l->along)
         return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for a section of %zu points", p->used);
-    for (; at != SIZE_MAX; at = find_next(p, l->points + 3 * (l->n - 1), s->extent))
+    while (at != SIZE_MAX) {
         append(p, at, same * s->extent, l);
+        at = find_next(p, l->points + 3 * (l->n - 1), s->extent);
+        if (at != SIZE_MAX)
+            follow_sheet(s, place, p->points + 3 * at, l);
+    }
     double length = 0, beside = 0;
     for (size_t k = 0; k < p->n; k++)
         *(p->taken[k] ? &length : &beside) += piece_length(p, k);
