@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "kelvin/kelvin_cell.h"
 #include "kelvin/kelvin_domain.h"
+#include "kelvin/kelvin_slope.h"
 
 #include <igabem/kelvin.h>
 
@@ -11,62 +12,100 @@ struct jet2 {
     double value, d[3], dd[6];
 };
 
-/* Sum of c_ijk x^i y^j z^k over the cell, by powers of z inside Horner's rule in x and y. */
-static void cell_jet2(const struct kelvin_coordinates *at, struct jet2 *jet)
+/* Sums of c_ij x^i y^j for eight coefficients at once: value, x, y, xx, xy, yy. */
+enum { F, FX, FY, FXX, FXY, FYY, SUMS };
+
+/* Horner's rule, in both variables. */
+KELVIN_INLINE const double *plane_sums(const double *c, int degree, double x, double y,
+                                       kelvin_octet sum[SUMS])
 {
-    double x = at->x, y = at->y, power[2 * KELVIN_OCTET + 8], sum[3][3][3] = {{{0}}};
-    int degree = (int)at->cell->degree;
-    power[0] = 1;
-    for (int k = 1; k <= degree; k++)
-        power[k] = power[k - 1] * at->z;
-    const double *c = kelvin_coefficients + at->cell->offset;
-    for (int first = 0; first <= degree; first += KELVIN_OCTET)
-        for (int part = 0; part < 3; part++) {
-            /* part: order of the derivative in z, as a weight on the powers. */
-            double weight[KELVIN_OCTET] = {0}, plane[3][3] = {{0}};
-            for (int l = 0; l < KELVIN_OCTET && first + l <= degree; l++) {
-                int k = first + l;
-                double factor = part == 0 ? 1 : part == 1 ? k : k * (k - 1.0);
-                weight[l] = k >= part ? factor * power[k - part] : 0;
-            }
-            const double *row = c;
-            for (int i = degree - first; i >= 0; i--) {
-                double r[3] = {0};
-                for (int j = degree - first - i; j >= 0; j--, row += KELVIN_OCTET) {
-                    double s = 0;
-                    for (int l = 0; l < KELVIN_OCTET; l++)
-                        s += row[l] * weight[l];
-                    r[2] = r[2] * y + 2 * r[1];
-                    r[1] = r[1] * y + r[0];
-                    r[0] = r[0] * y + s;
-                }
-                for (int q = 0; q < 3; q++) {
-                    plane[2][q] = plane[2][q] * x + 2 * plane[1][q];
-                    plane[1][q] = plane[1][q] * x + plane[0][q];
-                    plane[0][q] = plane[0][q] * x + r[q];
-                }
-            }
-            for (int p = 0; p < 3; p++)
-                for (int q = 0; q < 3; q++)
-                    sum[p][q][part] += plane[p][q];
-            if (part == 2)
-                c = row;
+    kelvin_octet f = {0}, fx = {0}, fy = {0}, fxx = {0}, fxy = {0}, fyy = {0};
+    for (int i = degree; i >= 0; i--) {
+        kelvin_octet row = *(const kelvin_octet *)c, row_y = {0}, row_yy = {0};
+        c += KELVIN_OCTET;
+        for (int j = degree - i; j > 0; j--, c += KELVIN_OCTET) {
+            row_yy = row_yy * y + row_y; /* half of it */
+            row_y = row_y * y + row;
+            row = row * y + *(const kelvin_octet *)c;
         }
-    double s[3] = {at->dx, KELVIN_DY, KELVIN_DY};
-    jet->value = sum[0][0][0];
-    jet->d[0] = s[0] * sum[1][0][0];
-    jet->d[1] = s[1] * sum[0][1][0];
-    jet->d[2] = s[2] * sum[0][0][1];
-    jet->dd[0] = s[0] * s[0] * sum[2][0][0];
-    jet->dd[1] = s[0] * s[1] * sum[1][1][0];
-    jet->dd[2] = s[0] * s[2] * sum[1][0][1];
-    jet->dd[3] = s[1] * s[1] * sum[0][2][0];
-    jet->dd[4] = s[1] * s[2] * sum[0][1][1];
-    jet->dd[5] = s[2] * s[2] * sum[0][0][2];
+        fxx = fxx * x + fx; /* half of it */
+        fx = fx * x + f;
+        f = f * x + row;
+        fxy = fxy * x + fy;
+        fy = fy * x + row_y;
+        fyy = fyy * x + row_yy;
+    }
+    sum[F] = f;
+    sum[FX] = fx;
+    sum[FY] = fy;
+    sum[FXX] = 2 * fxx;
+    sum[FXY] = fxy;
+    sum[FYY] = 2 * fyy;
+    return c;
+}
+
+KELVIN_INLINE double dot_lanes(const kelvin_octet *v, const kelvin_octet *w)
+{
+    kelvin_octet product = *v * *w;
+    double a[KELVIN_OCTET];
+    memcpy(a, &product, sizeof a);
+    return ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]));
+}
+
+/* Adds the coefficients of z^first to z^(first+7). */
+KELVIN_INLINE void add_planes(const kelvin_octet sum[SUMS], int first, double z, double factor,
+                              struct jet2 *jet)
+{
+    /* factor is z^(first-2), the powers of z that even the second derivative has */
+    double z2 = z * z, z3 = z2 * z, z4 = z2 * z2, k = first;
+    kelvin_octet power = {1, z, z2, z3, z4, z4 * z, z4 * z2, z4 * z3};
+    kelvin_octet order = {k, k + 1, k + 2, k + 3, k + 4, k + 5, k + 6, k + 7};
+    kelvin_octet value, slope, bend;
+    if (first == 0) {
+        kelvin_octet once = {0, 1, z, z2, z3, z4, z4 * z, z4 * z2};
+        kelvin_octet twice = {0, 0, 1, z, z2, z3, z4, z4 * z};
+        value = power;
+        slope = order * once;
+        bend = order * (order - 1) * twice;
+    } else {
+        value = power * (factor * z2);
+        slope = order * power * (factor * z);
+        bend = order * (order - 1) * power * factor;
+    }
+    jet->value += dot_lanes(&sum[F], &value);
+    jet->d[0] += dot_lanes(&sum[FX], &value);
+    jet->d[1] += dot_lanes(&sum[FY], &value);
+    jet->d[2] += dot_lanes(&sum[F], &slope);
+    jet->dd[0] += dot_lanes(&sum[FXX], &value);
+    jet->dd[1] += dot_lanes(&sum[FXY], &value);
+    jet->dd[2] += dot_lanes(&sum[FX], &slope);
+    jet->dd[3] += dot_lanes(&sum[FYY], &value);
+    jet->dd[4] += dot_lanes(&sum[FY], &slope);
+    jet->dd[5] += dot_lanes(&sum[F], &bend);
+}
+
+KELVIN_INLINE void cell_jet2(const struct kelvin_coordinates *at, struct jet2 *jet)
+{
+    kelvin_octet sum[SUMS];
+    double z = at->z, z2 = z * z, z4 = z2 * z2;
+    int degree = (int)at->cell->degree;
+    *jet = (struct jet2){0};
+    const double *c = plane_sums(kelvin_coefficients + at->cell->offset, degree, at->x, at->y, sum);
+    add_planes(sum, 0, z, 0.0, jet);
+    if (degree >= KELVIN_OCTET) {
+        plane_sums(c, degree - KELVIN_OCTET, at->x, at->y, sum);
+        add_planes(sum, KELVIN_OCTET, z, z4 * z2, jet);
+    }
+    const double s[3] = {at->dx, KELVIN_DY, KELVIN_DY};
+    for (int k = 0; k < 3; k++)
+        jet->d[k] *= s[k];
+    for (int k = 0, i = 0; i < 3; i++)
+        for (int j = i; j < 3; j++)
+            jet->dd[k++] *= s[i] * s[j];
 }
 
 /* N = r F(r, a, b), r = 1/M, in terms of M, a, b. */
-static void shell_jet2(const struct kelvin_place *place, struct jet2 *v)
+KELVIN_INLINE void shell_jet2(const struct kelvin_place *place, struct jet2 *v)
 {
     struct kelvin_coordinates at;
     struct jet2 f;
@@ -87,7 +126,7 @@ static void shell_jet2(const struct kelvin_place *place, struct jet2 *v)
 }
 
 /* N - C = K - ln(M) L next to the origin. */
-static void near_jet2(const struct kelvin_place *place, struct jet2 *v)
+KELVIN_INLINE void near_jet2(const struct kelvin_place *place, struct jet2 *v)
 {
     struct kelvin_coordinates at;
     struct jet2 L, K;
@@ -111,12 +150,12 @@ static void near_jet2(const struct kelvin_place *place, struct jet2 *v)
 
 /* What is asked for, of X, Y, U = |Z|. */
 struct hessian {
-    double XY, XU, YU, UU, U; /* U: first derivative */
+    double XY, XU, YU, UU, X, Y, U; /* X, Y, U: first derivatives */
 };
 
 /* From (M, a, b) to (X, Y, U). m, p, q: derivatives along the axis called M, that of a, that of b.
  */
-static void chain2(const struct kelvin_place *place, const struct jet2 *v, struct hessian *h)
+KELVIN_INLINE void chain2(const struct kelvin_place *place, const struct jet2 *v, struct hessian *h)
 {
     double r = place->r, a = place->a, b = place->b, kappa = place->kappa,
            slope = 2 * place->ratio * r;
@@ -129,17 +168,18 @@ static void chain2(const struct kelvin_place *place, const struct jet2 *v, struc
     double mq = r * (dd[2] - r * (d[2] + kappa * a * dd[4] + b * dd[5]));
     double mp = slope * (dd[1] - r * (kappa * d[1] + kappa * a * dd[3] + b * dd[4]));
     double pq = slope * r * dd[4], qq = r * r * dd[5];
+    double p = slope * d[1], q = r * d[2];
     if (place->face == 0)
-        *h = (struct hessian){mp, mq, pq, qq, r * d[2]};
+        *h = (struct hessian){mp, mq, pq, qq, m, p, q};
     else if (place->face == 1)
-        *h = (struct hessian){mp, pq, mq, qq, r * d[2]};
+        *h = (struct hessian){mp, pq, mq, qq, p, m, q};
     else
-        *h = (struct hessian){pq, mq, mp, mm, m};
+        *h = (struct hessian){pq, mq, mp, mm, q, p, m};
 }
 
 /* The closed part C = -2 (1 + U/(R+X)). Its derivatives follow from s = 1/(R+X): s_X = -s/R, s_Y =
  * -Y s^2/R, s_U = -U s^2/R. */
-static void add_pole(double X, double Y, double U, double r, struct hessian *h)
+KELVIN_INLINE void add_pole(double X, double Y, double U, double r, struct hessian *h)
 {
     double R = sqrt(X * X + Y * Y + U * U), s = 1 / (R + X), w = s / R, w3 = w / (R * R);
     double s_XY = Y * w3 * (1 + R * s), s_XU = U * w3 * (1 + R * s);
@@ -150,10 +190,12 @@ static void add_pole(double X, double Y, double U, double r, struct hessian *h)
     h->XU += -2 * (-w + U * s_XU) * r2;
     h->YU += -2 * (-Y * s * w + U * s_YU) * r2;
     h->UU += -2 * (-2 * U * s * w + U * s_UU) * r2;
+    h->X += 2 * U * w * r;
+    h->Y += 2 * U * Y * s * w * r;
     h->U += -2 * (s - U * U * s * w) * r;
 }
 
-static void octant_hessian(double X, double Y, double U, struct hessian *h)
+KELVIN_INLINE void octant_hessian(double X, double Y, double U, struct hessian *h)
 {
     struct kelvin_place place;
     struct jet2 v;
@@ -168,12 +210,11 @@ static void octant_hessian(double X, double Y, double U, struct hessian *h)
     add_pole(X * place.r, Y * place.r, U * place.r, place.r, h);
 }
 
-igabem_status igabem_kelvin_local_second(size_t n, const double *X, const double *Y,
-                                         const double *Z, double *NXX, double *NXY, double *NXZ,
-                                         double *NYY, double *NYZ, double *NZZ)
+KELVIN_MULTIVERSION
+static void second_batch(size_t n, const double *X, const double *Y, const double *Z, double *NXX,
+                         double *NXY, double *NXZ, double *NYY, double *NYZ, double *NZZ)
 {
-    igabem_status status = kelvin_check_domain("kelvin local part", n, X, Y, Z);
-    for (size_t i = 0; status == IGABEM_OK && i < n; i++) {
+    for (size_t i = 0; i < n; i++) {
         struct hessian h;
         octant_hessian(fabs(X[i]), fabs(Y[i]), -Z[i], &h);
         double sx = X[i] < 0 ? -1 : 1, sy = Y[i] < 0 ? -1 : 1;
@@ -192,5 +233,41 @@ igabem_status igabem_kelvin_local_second(size_t n, const double *X, const double
         if (NZZ)
             NZZ[i] = h.UU;
     }
+}
+
+igabem_status igabem_kelvin_local_second(size_t n, const double *X, const double *Y,
+                                         const double *Z, double *NXX, double *NXY, double *NXZ,
+                                         double *NYY, double *NYZ, double *NZZ)
+{
+    igabem_status status = kelvin_check_domain("kelvin local part", n, X, Y, Z);
+    if (status == IGABEM_OK)
+        second_batch(n, X, Y, Z, NXX, NXY, NXZ, NYY, NYZ, NZZ);
+    return status;
+}
+
+KELVIN_MULTIVERSION
+static void slope_batch(size_t n, const double *X, const double *Y, const double *Z,
+                        double *gradient, double *slope)
+{
+    for (size_t i = 0; i < n; i++) {
+        struct hessian h;
+        octant_hessian(fabs(X[i]), fabs(Y[i]), -Z[i], &h);
+        double sx = X[i] < 0 ? -1 : 1, sy = Y[i] < 0 ? -1 : 1;
+        double R = sqrt(X[i] * X[i] + Y[i] * Y[i] + Z[i] * Z[i]);
+        gradient[i] = sx * h.X;
+        gradient[n + i] = sy * h.Y;
+        gradient[2 * n + i] = -h.U;
+        slope[i] = sx * sy * h.XY;
+        slope[n + i] = -(2 * Z[i] / (R * R * R) + h.U) - h.UU;
+        slope[2 * n + i] = -sy * h.YU;
+    }
+}
+
+igabem_status kelvin_local_slope(size_t n, const double *X, const double *Y, const double *Z,
+                                 double *gradient, double *slope)
+{
+    igabem_status status = kelvin_check_domain("kelvin local part", n, X, Y, Z);
+    if (status == IGABEM_OK)
+        slope_batch(n, X, Y, Z, gradient, slope);
     return status;
 }
