@@ -1,7 +1,7 @@
 /* Processor time of tangents beside that of the solution: the DTMB 5415 wetted and simplified, Fr
- * 0.35, 15 fields. One line for each formulation that has them; their sum includes the residuals,
- * their derivatives and those of 40 x 20 samples of the pressure. Usage: igabem_bench_tangent
- * [fields] */
+ * 0.35, 15 fields. One line for each formulation that has them; the solution includes its residuals
+ * and 40 x 20 samples of the pressure, the tangents the derivatives of these. Usage:
+ * igabem_bench_tangent [fields] */
 #define _POSIX_C_SOURCE 200809L
 #include <igabem/igabem.h>
 #include <nurbs/nurbs.h>
@@ -53,25 +53,38 @@ static double *make_moves(const nurbs_surface *surface, size_t fields)
 
 enum { ALONG = 40, AROUND = 20 };
 
-/* What an optimiser reads of a solution and, unless NULL, of a tangent. */
-static igabem_status results(const igabem_solution *solution, const igabem_tangent *tangent,
-                             size_t fields)
+static bool has_velocity(const igabem_solution *solution)
+{
+    return igabem_formulation_info(igabem_solution_options(solution)->formulation)->solves;
+}
+
+/* What an optimiser reads of a solution. */
+static igabem_status results(const igabem_solution *solution)
 {
     size_t n = 0;
-    igabem_pressure_sample *sample = NULL, *dsample = NULL;
+    igabem_pressure_sample *sample = NULL;
     double r[IGABEM_WAVE_RESIDUALS];
-    double *dr = malloc(fields * IGABEM_WAVE_RESIDUALS * sizeof *dr);
     igabem_status status = igabem_wave_residuals(solution, r);
-    if (!status && tangent)
-        status = igabem_tangent_residuals(tangent, dr);
-    bool velocity = igabem_formulation_info(igabem_solution_options(solution)->formulation)->solves;
-    if (!status && velocity)
+    if (!status && has_velocity(solution))
         status = igabem_pressure_samples(solution, ALONG, AROUND, &n, &sample);
-    if (!status && velocity && tangent) {
+    free(sample);
+    return status;
+}
+
+/* Their derivatives. */
+static igabem_status derivatives(const igabem_solution *solution, const igabem_tangent *tangent,
+                                 size_t fields)
+{
+    size_t n = 0;
+    igabem_pressure_sample *dsample = NULL;
+    double *dr = malloc(fields * IGABEM_WAVE_RESIDUALS * sizeof *dr);
+    igabem_status status = igabem_tangent_residuals(tangent, dr);
+    if (!status && has_velocity(solution))
+        status = igabem_pressure_samples(solution, ALONG, AROUND, &n, NULL);
+    if (!status && has_velocity(solution)) {
         dsample = malloc(fields * n * sizeof *dsample);
         status = igabem_tangent_samples(tangent, ALONG, AROUND, dsample);
     }
-    free(sample);
     free(dsample);
     free(dr);
     return status;
@@ -93,7 +106,7 @@ static igabem_status run(const igabem_hull *hull, igabem_formulation formulation
         double start = seconds();
         igabem_status status = igabem_solve(hull, &options, &solution);
         if (!status)
-            status = results(solution, NULL, fields);
+            status = results(solution);
         spent[kept][0] = seconds() - start;
         if (!status)
             status = igabem_forces_compute(solution, &forces);
@@ -101,7 +114,7 @@ static igabem_status run(const igabem_hull *hull, igabem_formulation formulation
         if (!status)
             status = igabem_tangent_create(hull, solution, fields, move, &tangent);
         if (!status)
-            status = results(solution, tangent, fields);
+            status = derivatives(solution, tangent, fields);
         spent[kept][1] = seconds() - start;
         igabem_tangent_free(tangent);
         igabem_solution_free(solution);

@@ -39,9 +39,7 @@ VECTOR_INLINE void node_waves(const struct spectral *wave, size_t angles, double
     }
 }
 
-/* Number of leading angles that reach down and up again over a path of this depth, to a hundredth
- * of the tolerance because they are many. */
-static size_t angles_at(const struct spectral *wave, double depth)
+size_t spectral_angles(const struct spectral *wave, double depth)
 {
     struct wave_rule rule = wave->rule;
     rule.clearance = 0.0;
@@ -60,7 +58,7 @@ static size_t accumulate(const struct spectral *wave, const struct nodes *nodes,
 {
     size_t n = wave->spectrum->n, waves = 0;
     for (size_t i = 0; i < nodes->n; i++) {
-        size_t angles = angles_at(wave, wave->rule.clearance - nodes->z[i]);
+        size_t angles = spectral_angles(wave, wave->rule.clearance - nodes->z[i]);
         waves += angles;
         node_waves(wave, angles, nodes->x[i], nodes->y[i], nodes->z[i], buffer);
         for (size_t a = 0; a < functions; a++) {
@@ -95,9 +93,8 @@ static bool reserve(struct wave_work *work, size_t n)
     return n == 0 || work->f != NULL;
 }
 
-/* Nodes of the part of a source ahead of x (-INFINITY: all of it). */
-static void source_nodes(const struct spectral *wave, const struct source *source, double x,
-                         const struct wave_rule *rule, struct nodes *nodes)
+void spectral_nodes(const struct spectral *wave, const struct source *source, double x,
+                    const struct wave_rule *rule, struct nodes *nodes)
 {
     if (source->segment) {
         double stops[ELEMENT_SIDE + 2];
@@ -133,7 +130,7 @@ static igabem_status source_moments(const struct spectral *wave, struct source *
 {
     size_t m = spectral_functions(source->element);
     nodes_clear(&work->nodes);
-    source_nodes(wave, source, -INFINITY, &wave->rule, &work->nodes);
+    spectral_nodes(wave, source, -INFINITY, &wave->rule, &work->nodes);
     if (work->nodes.failed || !reserve(work, m * work->nodes.n))
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for wave moments");
     nodes_fold(&work->nodes, work->f);
@@ -157,7 +154,7 @@ static size_t point_factors(const struct spectral *wave, size_t point, double *f
     const struct spectrum *spectrum = wave->spectrum;
     const double *p = wave->influence->density->point + 3 * point;
     const double *normal = wave->influence->density->normal + 3 * point;
-    size_t n = spectrum->n, width = wave->width, angles = angles_at(wave, wave->depth - p[2]);
+    size_t n = spectrum->n, width = wave->width, angles = spectral_angles(wave, wave->depth - p[2]);
     double k0 = wave->k0, scale = k0 * k0 / (4.0 * PI) * (wave->sets == 1 ? 16.0 : 8.0);
     scale *= wave->weight ? wave->weight[point] : 1.0;
     for (size_t j = 0; j < angles; j++) {
@@ -253,7 +250,7 @@ static size_t direct_sum(const struct spectral *wave, const double *factor, size
 {
     size_t n = wave->spectrum->n, width = wave->width, waves = 0;
     for (size_t i = 0; i < nodes->n; i++) {
-        size_t angles = angles_at(wave, clearance - nodes->z[i]);
+        size_t angles = spectral_angles(wave, clearance - nodes->z[i]);
         angles = angles < point_angles ? angles : point_angles;
         waves += angles;
         node_waves(wave, angles, nodes->x[i], nodes->y[i], nodes->z[i], buffer);
@@ -288,7 +285,7 @@ static igabem_status straddling(const struct spectral *wave, size_t point, const
     for (size_t i = 0; i < wave->sources; i++) {
         const struct source *source = &wave->source[i];
         if (source->box[0] < p[0] - slack && source->box[1] > p[0] + slack)
-            source_nodes(wave, source, p[0], &rule, &work->nodes);
+            spectral_nodes(wave, source, p[0], &rule, &work->nodes);
     }
     size_t n = work->nodes.n;
     if (n == 0 && !work->nodes.failed)

@@ -44,6 +44,14 @@ igabem_status spectral_create(struct spectral *wave);
 /* Frees all but the change. */
 void spectral_free(struct spectral *wave);
 
+/* Number of leading angles that reach down and up again over a path of this depth, to a hundredth
+ * of the tolerance because they are many. */
+size_t spectral_angles(const struct spectral *wave, double depth);
+
+/* Appends the nodes of the part of a source ahead of x (-INFINITY: all of it). */
+void spectral_nodes(const struct spectral *wave, const struct source *source, double x,
+                    const struct wave_rule *rule, struct nodes *nodes);
+
 /* Basis functions of an element. */
 size_t spectral_functions(const struct element *element);
 

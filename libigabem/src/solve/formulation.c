@@ -16,7 +16,8 @@ static const igabem_formulation_row table[] = {
                                            .solves = true,
                                            .kelvin_rows = true,
                                            .line_term = true,
-                                           .pressure = true},
+                                           .pressure = true,
+                                           .tangents = true},
     [IGABEM_FORMULATION_NEUMANN_KELVIN_STERN] = {.name = "neumann-kelvin-stern",
                                                  .sentence = "the same, rows aft of x_s see the "
                                                              "double-body kernel only",
@@ -24,7 +25,8 @@ static const igabem_formulation_row table[] = {
                                                  .kelvin_rows = true,
                                                  .stern_rows = true,
                                                  .line_term = true,
-                                                 .pressure = true},
+                                                 .pressure = true,
+                                                 .tangents = true},
     /* The pressure drag of a double-body flow is zero but for its discretisation error; as a wave
      * resistance it would mislead. */
     [IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN] = {.name = "double-body-kochin",

@@ -1,6 +1,7 @@
 #include "tangent/field.h"
 
 #include "core/error.h"
+#include "core/vector_math.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -137,7 +138,8 @@ static void take_nets(const struct mesh *from, size_t first, struct field *field
         size_t count = (size_t)(element->degree[0] + 1) * (size_t)(element->degree[1] + 1);
         for (size_t k = 0; k < count; k++)
             for (size_t c = 0; c < 3 && first + c < field->n; c++)
-                field->net[field->offset[e] + k * field->n + first + c] = element->net[4 * k + c];
+                field->net[(field->offset[e] + k) * field->width + first + c] =
+                    element->net[4 * k + c];
     }
 }
 
@@ -185,16 +187,18 @@ igabem_status field_create(const igabem_hull *hull, const struct density *densit
     for (size_t e = 0; e < mesh->n && field && field->offset; e++) {
         const struct element *element = &mesh->element[e];
         field->offset[e] = total;
-        total += (size_t)(element->degree[0] + 1) * (size_t)(element->degree[1] + 1) * n;
+        total += (size_t)(element->degree[0] + 1) * (size_t)(element->degree[1] + 1);
     }
-    if (field)
-        field->net = malloc(total * sizeof *field->net);
+    if (field) {
+        field->n = n;
+        field->width = (n + FIELD_BLOCK - 1) / FIELD_BLOCK * FIELD_BLOCK;
+        field->mesh = mesh;
+        field->net = calloc(total * field->width, sizeof *field->net);
+    }
     if (!field || !surface || !field->offset || !field->net)
         status = igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu fields", n);
     for (size_t first = 0; first < n && status == IGABEM_OK; first += 3) {
         struct mesh *moves = NULL;
-        field->n = n;
-        field->mesh = mesh;
         status = move_surfaces(hull, density, n, first, move, surface);
         if (status == IGABEM_OK)
             status = mesh_create_on(density, (const nurbs_surface *const *)surface, &moves);
@@ -226,7 +230,19 @@ void field_free(struct field *field)
 
 const double *field_net(const struct field *field, const struct element *element)
 {
-    return field->net + field->offset[element - field->mesh->element];
+    return field->net + field->offset[element - field->mesh->element] * field->width;
+}
+
+/* Sums over the control values of one block of fields. */
+VECTOR_MULTIVERSION
+static void sum_block(size_t count, size_t width, const double (*basis)[3], const double *net,
+                      double sum[3][FIELD_BLOCK])
+{
+    memset(sum, 0, 3 * sizeof *sum);
+    for (size_t k = 0; k < count; k++, net += width)
+        for (size_t d = 0; d < 3; d++)
+            for (size_t l = 0; l < FIELD_BLOCK; l++)
+                sum[d][l] += basis[k][d] * net[l];
 }
 
 void field_at(const struct field *field, const struct element *element, const double local[2],
@@ -235,24 +251,26 @@ void field_at(const struct field *field, const struct element *element, const do
     size_t n = field->n, m = (size_t)element->degree[1] + 1;
     size_t count = ((size_t)element->degree[0] + 1) * m;
     double bu[ELEMENT_SIDE], du[ELEMENT_SIDE], bv[ELEMENT_SIDE], dv[ELEMENT_SIDE];
+    double basis[ELEMENT_FUNCTIONS][3], weight[3] = {0.0, 0.0, 0.0};
     bernstein(element->degree[0], local[0], bu, du);
     bernstein(element->degree[1], local[1], bv, dv);
-    const double *net = field_net(field, element);
-    double weight[3] = {0.0, 0.0, 0.0};
-    memset(v, 0, 3 * n * sizeof *v);
-    for (size_t k = 0; k < count; k++, net += n) {
-        size_t a = k / m, b = k % m;
-        const double basis[3] = {bu[a] * bv[b], du[a] * bv[b], bu[a] * dv[b]};
-        for (size_t d = 0; d < 3; d++) {
-            weight[d] += basis[d] * element->net[4 * k + 3];
-            for (size_t f = 0; f < n; f++)
-                v[d * n + f] += basis[d] * net[f];
-        }
+    for (size_t k = 0; k < count; k++) {
+        basis[k][0] = bu[k / m] * bv[k % m];
+        basis[k][1] = du[k / m] * bv[k % m];
+        basis[k][2] = bu[k / m] * dv[k % m];
+        for (size_t d = 0; d < 3; d++)
+            weight[d] += basis[k][d] * element->net[4 * k + 3];
     }
-    for (size_t f = 0; f < n; f++) {
-        v[f] /= weight[0];
-        for (size_t d = 1; d < 3; d++)
-            v[d * n + f] = (v[d * n + f] - v[f] * weight[d]) / weight[0];
+    const double *net = field_net(field, element);
+    for (size_t first = 0; first < n; first += FIELD_BLOCK) {
+        double sum[3][FIELD_BLOCK];
+        sum_block(count, field->width, (const double(*)[3])basis, net + first, sum);
+        for (size_t l = 0; l < FIELD_BLOCK && first + l < n; l++) {
+            double value = sum[0][l] / weight[0];
+            v[first + l] = value;
+            for (size_t d = 1; d < 3; d++)
+                v[d * n + first + l] = (sum[d][l] - value * weight[d]) / weight[0];
+        }
     }
 }
 

@@ -6,11 +6,14 @@
 
 #include "space/cell.h"
 
+enum { FIELD_BLOCK = 8 }; /* fields that are summed at once */
+
 struct field {
-    size_t n; /* fields */
+    size_t n;     /* fields */
+    size_t width; /* the same with what fills the last block up, which stays still */
     const struct mesh *mesh;
-    size_t *offset; /* [elements] */
-    double *net;    /* of an element [pu+1][pv+1][n] from its offset on: weight times V */
+    size_t *offset; /* [elements] of the first Bernstein polynomial of each */
+    double *net;    /* of all of them, [width] each: weight times V */
 };
 
 /* move[n][points][3] of all patches of the hull; refuses what is not allowed. */
@@ -19,6 +22,7 @@ igabem_status field_create(const igabem_hull *hull, const struct density *densit
                            struct field **field);
 void field_free(struct field *field);
 
+/* Control values of an element, [pu+1][pv+1][width]. */
 const double *field_net(const struct field *field, const struct element *element);
 
 /* V, V_s and V_t at local parameters of an element: fills v[3][n]. */

@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/vector_math.h"
 #include "space/quadrature_wave.h"
+#include "tangent/moving.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -19,12 +20,13 @@ static igabem_status no_memory(void)
 static igabem_status carriers_create(size_t n, size_t fields, bool deep, struct carriers *carriers)
 {
     carriers->n = n;
-    carriers->x = malloc((3 * n + 1) * sizeof *carriers->x);
+    carriers->x = malloc((4 * n + 1) * sizeof *carriers->x);
     carriers->change = malloc((2 * n * fields + 1) * sizeof *carriers->change);
     if (!carriers->x || !carriers->change)
         return no_memory();
     carriers->y = carriers->x + n;
-    carriers->z = deep ? carriers->x + 2 * n : NULL;
+    carriers->strength = carriers->x + 2 * n;
+    carriers->z = deep ? carriers->x + 3 * n : NULL;
     return IGABEM_OK;
 }
 
@@ -90,10 +92,11 @@ static int by_depth(const void *a, const void *b)
     return (p->node > q->node) - (p->node < q->node);
 }
 
-/* A surface source: q = g sigma, or U n_x dS where nothing is solved. v[3][fields] is the move. */
-static void surface_change(const igabem_tangent *tangent, const struct nodes *nodes, size_t node,
-                           const struct element *element, const struct densities *densities,
-                           const double *v, double *change)
+/* A surface source: q = g sigma, or U n_x dS where nothing is solved. v[3][fields] is the move.
+ * Returns q. */
+static double surface_change(const igabem_tangent *tangent, const struct nodes *nodes, size_t node,
+                             const struct element *element, const struct densities *densities,
+                             const double *v, double *change)
 {
     const igabem_solution *solution = tangent->solution;
     size_t fields = densities->fields;
@@ -113,7 +116,7 @@ static void surface_change(const igabem_tangent *tangent, const struct nodes *no
                 part * (area.inflow[0] * v[fields + f] + area.inflow[1] * v[2 * fields + f]);
             moved[f] = part * area.area[0] * v[f];
         }
-        return;
+        return part * area.area[0];
     }
     double sigma = density_at(densities, element, nodes->bu + node * nodes->side[0],
                               nodes->bv + node * nodes->side[1], change);
@@ -123,6 +126,7 @@ static void surface_change(const igabem_tangent *tangent, const struct nodes *no
                     part * (area.length[0] * v[fields + f] + area.length[1] * v[2 * fields + f]);
         moved[f] = sigma * g * v[f];
     }
+    return sigma * g;
 }
 
 static igabem_status fill_surface(const igabem_tangent *tangent, const struct nodes *nodes,
@@ -154,8 +158,8 @@ static igabem_status fill_surface(const igabem_tangent *tangent, const struct no
             carriers->x[to] = nodes->x[i];
             carriers->y[to] = centre ? 0.0 : nodes->y[i];
             carriers->z[to] = nodes->z[i];
-            surface_change(tangent, nodes, i, block->element, densities, v,
-                           carriers->change + 2 * fields * to);
+            carriers->strength[to] = surface_change(tangent, nodes, i, block->element, densities, v,
+                                                    carriers->change + 2 * fields * to);
         }
     }
     free(order);
@@ -163,73 +167,41 @@ static igabem_status fill_surface(const igabem_tangent *tangent, const struct no
     return IGABEM_OK;
 }
 
-/* Changes of the strength per length -chi n_x nu_x times the length dl of a place on the waterline:
- * fills change[fields], returns the strength itself times dl. */
-static double line_change(const struct field *field, const struct line *line,
-                          const struct line_segment *segment, const double local[2], double *v,
-                          double *change)
-{
-    const struct element *element = segment->element;
-    struct jet jet;
-    struct area_change area;
-    element_jet(element, local[0], local[1], &jet);
-    area_change(jet.ds, jet.dt, element->sign, &area);
-    field_at(field, element, local, v);
-    const double *tangent = segment->fixed == 0 ? jet.dt : jet.ds;
-    const double *slope = v + (segment->fixed == 0 ? 2 : 1) * field->n;
-    double dl = hypot(tangent[0], tangent[1]);
-    memset(change, 0, field->n * sizeof *change);
-    if (!(dl > 0) || !(area.size > 0))
-        return 0.0;
-    double outward = tangent[1] * area.area[0] - tangent[0] * area.area[1] < 0 ? -1.0 : 1.0;
-    double nx = area.area[0] / area.size, nu = outward * tangent[1] / dl;
-    double ratio = fabs(nu) / line->limit, cube = ratio * ratio * ratio;
-    double chi = 1.0 / (1.0 + cube * ratio);
-    /* d/d nu of chi nu */
-    double limited = chi - 4.0 * cube * ratio * chi * chi;
-    for (size_t f = 0; f < field->n; f++) {
-        double vs = v[field->n + f], vt = v[2 * field->n + f];
-        double size = area.length[0] * vs + area.length[1] * vt;
-        double dnx = (area.inflow[0] * vs + area.inflow[1] * vt - nx * size) / area.size;
-        double dlength = tangent[1] * slope[f] / dl;
-        double dnu = outward * tangent[0] * tangent[0] * slope[f] / (dl * dl * dl);
-        change[f] = -(dnx * chi * nu * dl + nx * limited * dnu * dl + nx * chi * nu * dlength);
-    }
-    return -nx * chi * nu * dl;
-}
-
 /* The sources of one segment, from carrier `first` on. */
 static void fill_segment(const igabem_tangent *tangent, const struct line *line,
                          const struct line_segment *segment, const struct nodes *nodes,
-                         const struct densities *densities, double *v, double *change, size_t first,
+                         const struct densities *densities, double *v, size_t first,
                          struct carriers *carriers)
 {
     size_t fields = densities->fields;
-    double k0 = tangent->solution->k0;
+    const struct element *element = segment->element;
     for (size_t i = 0; i < nodes->n; i++) {
         size_t at = first + i;
         double local[2], *to = carriers->change + 2 * fields * at;
         const double *bu = nodes->bu + i * nodes->side[0], *bv = nodes->bv + i * nodes->side[1];
-        nodes_local(nodes, segment->element, i, local);
-        double strength = line_change(tangent->field, line, segment, local, v, change);
+        struct line_change change;
         struct line_point point;
+        nodes_local(nodes, element, i, local);
+        line_change(line, segment, local, &change);
         line_evaluate(line, segment, local[1 - segment->fixed], &point);
+        field_at(tangent->field, element, local, v);
         /* normal[1] is the length of the node */
-        double weight =
-            point.dl > 0 ? nodes->normal[3 * i + 1] / (point.dl * point.weight * k0) : 0.0;
-        double sigma = density_at(densities, segment->element, bu, bv, to);
+        double weight = change.dl > 0 ? nodes->normal[3 * i + 1] / (change.dl * point.weight) : 0.0;
+        double part = weight / tangent->solution->k0;
+        double sigma = density_at(densities, element, bu, bv, to);
         carriers->x[at] = nodes->x[i];
         carriers->y[at] = nodes->y[i];
+        carriers->strength[at] = part * change.strength * sigma;
         for (size_t f = 0; f < fields; f++) {
-            to[f] = weight * (strength * to[f] + change[f] * sigma);
-            to[fields + f] = weight * strength * sigma * v[f];
+            double growth = change.change[0] * v[fields + f] + change.change[1] * v[2 * fields + f];
+            to[f] = part * (change.strength * to[f] + growth * sigma);
+            to[fields + f] = part * change.strength * sigma * v[f];
         }
     }
 }
 
 static igabem_status fill_line(const igabem_tangent *tangent, const struct wave_rule *rule,
-                               struct densities *densities, double *v, double *change,
-                               struct carriers *carriers)
+                               struct densities *densities, double *v, struct carriers *carriers)
 {
     const igabem_solution *solution = tangent->solution;
     struct line *line = NULL;
@@ -251,7 +223,7 @@ static igabem_status fill_line(const igabem_tangent *tangent, const struct wave_
                 status = no_memory();
             else if (pass == 1) {
                 gather(tangent, segment->element, densities);
-                fill_segment(tangent, line, segment, &nodes, densities, v, change, total, carriers);
+                fill_segment(tangent, line, segment, &nodes, densities, v, total, carriers);
             }
             total += nodes.n;
         }
@@ -270,7 +242,7 @@ igabem_status radiators_create(const igabem_tangent *tangent, double t_max,
     struct radiators *radiators = calloc(1, sizeof *radiators);
     struct densities densities = {
         malloc((fields + 1) * ELEMENT_FUNCTIONS * sizeof *densities.field), fields};
-    double *v = malloc(4 * fields * sizeof *v);
+    double *v = malloc(3 * fields * sizeof *v);
     struct nodes nodes;
     nodes_init(&nodes, tangent->mesh);
     nodes.with_jets = true;
@@ -294,7 +266,7 @@ igabem_status radiators_create(const igabem_tangent *tangent, double t_max,
     if (status == IGABEM_OK)
         status = fill_surface(tangent, &nodes, &densities, v, &radiators->surface);
     if (status == IGABEM_OK && solution->formulation->line_term && solution->options.line_term)
-        status = fill_line(tangent, &rule, &densities, v, v + 3 * fields, &radiators->line);
+        status = fill_line(tangent, &rule, &densities, v, &radiators->line);
     nodes_free(&nodes);
     free(densities.field);
     free(v);
@@ -350,8 +322,18 @@ static void add_changes(size_t n, size_t fields, size_t count, double (*wave)[BL
     }
 }
 
+VECTOR_MULTIVERSION
+static double dot(size_t n, const double *restrict p, const double *restrict q)
+{
+    double sum = 0.0;
+#pragma omp simd reduction(+ : sum)
+    for (size_t j = 0; j < n; j++)
+        sum += p[j] * q[j];
+    return sum;
+}
+
 static void add_carriers(const struct carriers *carriers, size_t fields, double a, double b,
-                         double k, double (*dh)[2])
+                         double k, double h[2], double (*dh)[2])
 {
     double wave[4][BLOCK];
     for (size_t begin = 0; begin < carriers->n; begin += BLOCK) {
@@ -360,6 +342,8 @@ static void add_carriers(const struct carriers *carriers, size_t fields, double 
             break;
         block_waves(a, b, k, n, carriers->x + begin, carriers->y + begin,
                     carriers->z ? carriers->z + begin : NULL, wave);
+        for (size_t c = 0; c < 2; c++)
+            h[c] += dot(n, wave[c], carriers->strength + begin);
         for (size_t first = 0; first < fields; first += FIELDS_AT_ONCE) {
             size_t count = fields - first < FIELDS_AT_ONCE ? fields - first : FIELDS_AT_ONCE;
             add_changes(n, fields, count, wave, carriers->change + 2 * fields * begin + first,
@@ -368,10 +352,12 @@ static void add_carriers(const struct carriers *carriers, size_t fields, double 
     }
 }
 
-void radiators_sum(const struct radiators *radiators, double k0, double t, double (*dh)[2])
+void radiators_sum(const struct radiators *radiators, double k0, double t, double h[2],
+                   double (*dh)[2])
 {
     double a = k0 * (1.0 + t * t), k = k0 * sqrt(1.0 + t * t), b = k * t;
+    h[0] = h[1] = 0.0;
     memset(dh, 0, radiators->fields * sizeof *dh);
-    add_carriers(&radiators->surface, radiators->fields, a, b, k, dh);
-    add_carriers(&radiators->line, radiators->fields, a, b, k, dh);
+    add_carriers(&radiators->surface, radiators->fields, a, b, k, h, dh);
+    add_carriers(&radiators->line, radiators->fields, a, b, k, h, dh);
 }

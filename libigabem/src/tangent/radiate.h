@@ -9,6 +9,7 @@
 struct carriers {
     size_t n;
     double *x, *y, *z; /* z of the waterline: NULL */
+    double *strength;  /* q */
     double *change;    /* [n][2][fields]: of the strength q; q times the move along y */
 };
 
@@ -22,7 +23,8 @@ igabem_status radiators_create(const igabem_tangent *tangent, double t_max,
                                struct radiators **radiators);
 void radiators_free(struct radiators *radiators);
 
-/* Fills dh[fields][2] at wave angle t. */
-void radiators_sum(const struct radiators *radiators, double k0, double t, double (*dh)[2]);
+/* The Kochin function h at wave angle t, and its derivatives: fills dh[fields][2]. */
+void radiators_sum(const struct radiators *radiators, double k0, double t, double h[2],
+                   double (*dh)[2]);
 
 #endif

@@ -1,9 +1,8 @@
-#include "tangent/rankine.h"
-
 #include "core/constants.h"
 #include "core/vector_math.h"
 #include "space/quadrature_near.h"
 #include "space/quadrature_singular.h"
+#include "tangent/change.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -49,18 +48,11 @@ struct far_view {
     unsigned images; /* bit i: reflection i is far enough */
 };
 
-struct far_rule {
-    bool used;
-    struct nodes nodes;
-    struct moving moving;
-};
-
 struct work {
     struct nodes nodes;
     struct nodes singular; /* relative to the point */
     struct moving moving;
-    double *k; /* kernels, [3][3][n] */
-    size_t capacity;
+    struct kernels kernels;
 };
 
 static void reflect(const double p[3], int i, double out[3])
@@ -98,36 +90,6 @@ static struct far_view look(const struct influence *influence, size_t p, size_t 
     return view;
 }
 
-static struct far_rule *rule_of(struct far_rule *rules, size_t panel, const int class[2])
-{
-    return &rules[(panel * REGULAR_CLASSES + (size_t) class[0]) * REGULAR_CLASSES +
-                  (size_t) class[1]];
-}
-
-static bool reserve(struct work *work, size_t n)
-{
-    if (n <= work->capacity)
-        return true;
-    free(work->k);
-    work->capacity = n + n / 2;
-    work->k = malloc(9 * work->capacity * sizeof *work->k);
-    if (!work->k)
-        work->capacity = 0;
-    return work->k != NULL;
-}
-
-/* Adds the sums of kernels over the nodes: the moves of the nodes to out, and what the point's own
- * move is multiplied by to turn[3]. */
-static void sum_up(const struct field *field, const struct nodes *nodes,
-                   const struct moving *moving, const double *k, double *out, double turn[3])
-{
-    size_t n = nodes->n;
-    moving_add(field, nodes, moving, k, k + 3 * n, out);
-    for (size_t c = 0; c < 3; c++)
-        for (size_t i = 0; i < n; i++)
-            turn[c] += k[(6 + c) * n + i] * moving->strength[i];
-}
-
 /* Factor of an image: the solve gives +1/r' the sign of the reflection and the weight of the row.
  */
 static double image_factor(const double *image, size_t point, int i)
@@ -135,7 +97,7 @@ static double image_factor(const double *image, size_t point, int i)
     return i & 1 ? (image ? -image[point] : 0.0) : 1.0;
 }
 
-static bool far_part(const struct change *change, const double *image, struct far_rule *rules,
+static bool far_part(const struct change *change, const double *image, struct rules *rules,
                      const struct far_view *views, size_t point, int images, struct work *work,
                      double *out, double turn[3])
 {
@@ -143,20 +105,19 @@ static bool far_part(const struct change *change, const double *image, struct fa
     for (size_t p = 0; p < influence->mesh->panels; p++) {
         if (!views[p].images)
             continue;
-        const struct far_rule *rule = rule_of(rules, p, views[p].class);
+        const struct rule *rule = rules_of(rules, p, views[p].class);
         const struct nodes *nodes = &rule->nodes;
-        if (!reserve(work, nodes->n))
+        if (!kernels_clear(&work->kernels, nodes->n))
             return false;
-        memset(work->k, 0, 9 * nodes->n * sizeof *work->k);
         for (int i = 0; i < images; i++) {
             double factor = image_factor(image, point, i), at[3];
             if (!(views[p].images >> i & 1u) || factor == 0.0)
                 continue;
             reflect(influence->density->point + 3 * point, i, at);
-            kernel(at, &reflections[i], factor, nodes->n, nodes->x, nodes->y, nodes->z, work->k,
-                   work->k + 3 * nodes->n, work->k + 6 * nodes->n);
+            kernel(at, &reflections[i], factor, nodes->n, nodes->x, nodes->y, nodes->z,
+                   work->kernels.k, work->kernels.slope, work->kernels.turned);
         }
-        sum_up(change->tangent->field, nodes, &rule->moving, work->k, out, turn);
+        kernels_sum_rule(&work->kernels, change->tangent->field, rule, out, turn);
     }
     return true;
 }
@@ -166,12 +127,11 @@ static bool own_nodes(const struct change *change, const double at[3], int i, do
                       struct nodes *nodes, struct work *work, double *out, double turn[3])
 {
     if (!moving_fill(change->tangent, change->bernstein, nodes, &work->moving) ||
-        !reserve(work, nodes->n))
+        !kernels_clear(&work->kernels, nodes->n))
         return false;
-    memset(work->k, 0, 9 * nodes->n * sizeof *work->k);
-    kernel(at, &reflections[i], factor, nodes->n, nodes->x, nodes->y, nodes->z, work->k,
-           work->k + 3 * nodes->n, work->k + 6 * nodes->n);
-    sum_up(change->tangent->field, nodes, &work->moving, work->k, out, turn);
+    kernel(at, &reflections[i], factor, nodes->n, nodes->x, nodes->y, nodes->z, work->kernels.k,
+           work->kernels.slope, work->kernels.turned);
+    kernels_sum(&work->kernels, change->tangent->field, nodes, &work->moving, out, turn);
     nodes_clear(nodes);
     return true;
 }
@@ -181,8 +141,7 @@ static void add_correction(const struct change *change, const struct element *el
                            const double local[2], const double slope[2][3], double *v, double *out)
 {
     const struct field *field = change->tangent->field;
-    const double *density =
-        change->bernstein + field->offset[element - field->mesh->element] / field->n;
+    const double *density = change->bernstein + field->offset[element - field->mesh->element];
     size_t m = (size_t)element->degree[0] + 1, n = (size_t)element->degree[1] + 1;
     double bu[ELEMENT_SIDE], bv[ELEMENT_SIDE], sigma = 0.0;
     bernstein(element->degree[0], local[0], bu, NULL);
@@ -228,7 +187,7 @@ static bool near_part(const struct change *change, const double *image,
            (i > 0 || own_nodes(change, origin, 0, 1.0, &work->singular, work, out, turn));
 }
 
-static bool point_change(const struct change *change, const double *image, struct far_rule *rules,
+static bool point_change(const struct change *change, const double *image, struct rules *rules,
                          const struct far_view *views, size_t point, struct work *work, double *v,
                          double *out)
 {
@@ -240,36 +199,15 @@ static bool point_change(const struct change *change, const double *image, struc
     for (int i = 0; i < images; i++)
         if (!near_part(change, image, views, point, i, work, v, out, turn))
             return false;
-    const double *move = change->point + point * fields;
+    const double *move = change->tangent->point + point * fields;
     for (size_t c = 0; c < 3; c++)
         for (size_t f = 0; f < fields; f++)
             out[c * fields + f] += turn[c] * move[f];
     return true;
 }
 
-/* Nodes of the rules in use. */
-static bool fill_rules(const struct change *change, struct far_rule *rules)
-{
-    const struct influence *influence = change->influence;
-    size_t count = influence->mesh->panels * REGULAR_CLASSES * REGULAR_CLASSES;
-    bool failed = false;
-#pragma omp parallel for num_threads(influence->threads) schedule(dynamic, 16) reduction(| : failed)
-    for (size_t k = 0; k < count; k++) {
-        const int class[2] = {(int)(k / REGULAR_CLASSES % REGULAR_CLASSES),
-                              (int)(k % REGULAR_CLASSES)};
-        struct far_rule *rule = &rules[k];
-        if (!rule->used)
-            continue;
-        nodes_init(&rule->nodes, influence->mesh);
-        rule->nodes.with_jets = true;
-        regular_nodes(influence, k / (REGULAR_CLASSES * REGULAR_CLASSES), class, &rule->nodes);
-        failed |= !moving_fill(change->tangent, change->bernstein, &rule->nodes, &rule->moving);
-    }
-    return !failed;
-}
-
 static void find_views(const struct influence *influence, struct far_view *views,
-                       struct far_rule *rules)
+                       struct rules *rules)
 {
     size_t n = influence->density->n, panels = influence->mesh->panels;
     int images = influence->density->symmetric ? 4 : 2;
@@ -279,10 +217,10 @@ static void find_views(const struct influence *influence, struct far_view *views
             views[i * panels + p] = look(influence, p, i, images);
     for (size_t k = 0; k < n * panels; k++)
         if (views[k].images)
-            rule_of(rules, k % panels, views[k].class)->used = true;
+            rules_of(rules, k % panels, views[k].class)->used = true;
 }
 
-static bool all_points(const struct change *change, const double *image, struct far_rule *rules,
+static bool all_points(const struct change *change, const double *image, struct rules *rules,
                        const struct far_view *views, double *velocity)
 {
     const struct influence *influence = change->influence;
@@ -290,7 +228,7 @@ static bool all_points(const struct change *change, const double *image, struct 
     bool failed = false;
 #pragma omp parallel num_threads(influence->threads) reduction(| : failed)
     {
-        struct work work = {.k = NULL};
+        struct work work = {.kernels = {.k = NULL}};
         nodes_init(&work.nodes, influence->mesh);
         nodes_init(&work.singular, influence->mesh);
         work.nodes.with_jets = work.singular.with_jets = true;
@@ -304,7 +242,7 @@ static bool all_points(const struct change *change, const double *image, struct 
         nodes_free(&work.nodes);
         nodes_free(&work.singular);
         moving_free(&work.moving);
-        free(work.k);
+        kernels_free(&work.kernels);
         free(v);
     }
     return !failed;
@@ -313,19 +251,13 @@ static bool all_points(const struct change *change, const double *image, struct 
 igabem_status change_rankine(const struct change *change, const double *image, double *velocity)
 {
     const struct influence *influence = change->influence;
-    size_t panels = influence->mesh->panels, count = panels * REGULAR_CLASSES * REGULAR_CLASSES;
-    struct far_rule *rules = calloc(count, sizeof *rules);
+    size_t panels = influence->mesh->panels;
     struct far_view *views = malloc(influence->density->n * panels * sizeof *views);
-    bool complete = rules && views;
+    bool complete = views != NULL;
     if (complete)
-        find_views(influence, views, rules);
-    complete =
-        complete && fill_rules(change, rules) && all_points(change, image, rules, views, velocity);
-    for (size_t k = 0; rules && k < count; k++) {
-        nodes_free(&rules[k].nodes);
-        moving_free(&rules[k].moving);
-    }
-    free(rules);
+        find_views(influence, views, change->rules);
+    complete = complete && rules_fill(change, change->rules) &&
+               all_points(change, image, change->rules, views, velocity);
     free(views);
     return complete ? IGABEM_OK : tangent_no_memory(change->tangent->field->n);
 }

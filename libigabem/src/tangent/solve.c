@@ -4,7 +4,7 @@
 #include "solve/formulation.h"
 #include "solve/linear.h"
 #include "solve/setting.h"
-#include "tangent/rankine.h"
+#include "tangent/change.h"
 #include "threads.h"
 
 #include <stdlib.h>
@@ -24,20 +24,47 @@ static igabem_status at_points(const struct density *density, size_t count,
     return status;
 }
 
-/* What the moves do to the velocities of the solution's sources at the points, which move too. */
+/* What the waves add to them. */
+static igabem_status change_waves(const struct change *change, const double *weight,
+                                  double *velocity)
+{
+    const igabem_solution *solution = change->tangent->solution;
+    struct line *line = NULL;
+    igabem_status status = IGABEM_OK;
+    if (solution->options.line_term)
+        status = line_create(solution->density, change->influence->mesh,
+                             solution->options.stem_limit, &line);
+    if (status == IGABEM_OK)
+        status = change_local(change, line, weight, velocity);
+    if (status == IGABEM_OK)
+        status = change_wave(change, line, weight, velocity);
+    line_free(line);
+    return status;
+}
+
+/* What the moves do to the velocities of the solution's sources at the points, which move too:
+ * fills velocity[unknowns][3][fields]. */
 static igabem_status change_velocities(igabem_tangent *tangent, const struct influence *influence,
                                        double *velocity)
 {
     const igabem_solution *solution = tangent->solution;
     size_t n = solution->density->n;
-    double *bernstein = NULL, *image = malloc(n * sizeof *image);
+    double *bernstein = NULL, *image = malloc(2 * n * sizeof *image);
+    struct rules *rules = NULL;
     igabem_status status =
         image ? moving_density(tangent, &bernstein) : tangent_no_memory(tangent->field->n);
-    const struct change change = {tangent, influence, bernstein, tangent->point};
-    for (size_t i = 0; i < n && status == IGABEM_OK; i++)
-        image[i] = 2.0 * solution_wave_share(solution, solution->density->point[3 * i]) - 1.0;
+    if (status == IGABEM_OK)
+        status = rules_create(influence, &rules);
+    for (size_t i = 0; i < n && status == IGABEM_OK; i++) {
+        image[n + i] = solution_wave_share(solution, solution->density->point[3 * i]);
+        image[i] = 2.0 * image[n + i] - 1.0;
+    }
+    const struct change change = {tangent, influence, bernstein, rules};
     if (status == IGABEM_OK)
         status = change_rankine(&change, image, velocity);
+    if (status == IGABEM_OK && formulation_has_waves(&solution->options))
+        status = change_waves(&change, image + n, velocity);
+    rules_free(rules);
     free(bernstein);
     free(image);
     return status;

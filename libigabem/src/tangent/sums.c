@@ -17,9 +17,9 @@ static size_t fields_of(const igabem_tangent *tangent)
     return tangent->field->n;
 }
 
-/* Fills dh[n][m][2]. */
+/* Fills h[m][2] and dh[n][m][2]. */
 static igabem_status kochin(const igabem_tangent *tangent, double largest, size_t m,
-                            const double *t, double (*dh)[2])
+                            const double *t, double (*h)[2], double (*dh)[2])
 {
     size_t n = fields_of(tangent);
     struct radiators *radiators;
@@ -35,7 +35,7 @@ static igabem_status kochin(const igabem_tangent *tangent, double largest, size_
         for (size_t i = 0; i < m; i++) {
             if (failed)
                 continue;
-            radiators_sum(radiators, tangent->solution->k0, t[i], one);
+            radiators_sum(radiators, tangent->solution->k0, t[i], h[i], one);
             for (size_t f = 0; f < n; f++)
                 for (size_t c = 0; c < 2; c++)
                     dh[f * m + i][c] = one[f][c];
@@ -54,7 +54,12 @@ igabem_status igabem_tangent_kochin(const igabem_tangent *tangent, size_t m, con
     THREADS(tangent->solution->options.threads);
     double largest;
     igabem_status status = kochin_check_angles(tangent->solution, m, t, &largest);
-    return status == IGABEM_OK ? kochin(tangent, largest, m, t, dh) : status;
+    if (status != IGABEM_OK)
+        return status;
+    double(*h)[2] = malloc((m + 1) * sizeof *h);
+    status = h ? kochin(tangent, largest, m, t, h, dh) : tangent_no_memory(fields_of(tangent));
+    free(h);
+    return status;
 }
 
 igabem_status igabem_tangent_residuals(const igabem_tangent *tangent, double *dr)
@@ -64,19 +69,17 @@ igabem_status igabem_tangent_residuals(const igabem_tangent *tangent, double *dr
     const igabem_solution *solution = tangent->solution;
     THREADS(solution->options.threads);
     size_t n = fields_of(tangent);
-    double t[RESIDUAL_ANGLES], scale[RESIDUAL_ANGLES], r[IGABEM_WAVE_RESIDUALS];
+    double t[RESIDUAL_ANGLES], scale[RESIDUAL_ANGLES], h[RESIDUAL_ANGLES][2];
     igabem_status status = residual_angles(solution, t, scale);
-    if (status == IGABEM_OK)
-        status = igabem_wave_residuals(solution, r);
     /* [n][angles][2] is [n][IGABEM_WAVE_RESIDUALS] */
     if (status == IGABEM_OK)
-        status = kochin(tangent, radiation_limit(solution), RESIDUAL_ANGLES, t,
+        status = kochin(tangent, radiation_limit(solution), RESIDUAL_ANGLES, t, h,
                         (double(*)[2])(void *)dr);
     double area = solution->info.hydrostatics.wetted_area;
     for (size_t f = 0; f < n && status == IGABEM_OK; f++)
         for (size_t k = 0; k < IGABEM_WAVE_RESIDUALS; k++) {
             double *to = dr + f * IGABEM_WAVE_RESIDUALS + k;
-            *to = scale[k / 2] * *to - 0.5 * r[k] * tangent->area[f] / area;
+            *to = scale[k / 2] * (*to - 0.5 * h[k / 2][k % 2] * tangent->area[f] / area);
         }
     return status;
 }
@@ -100,9 +103,7 @@ igabem_status igabem_tangent_cw(const igabem_tangent *tangent, double *dcw)
             status = tangent_no_memory(n);
     }
     if (status == IGABEM_OK)
-        status = igabem_kochin(solution, m, t, h, NULL);
-    if (status == IGABEM_OK)
-        status = kochin(tangent, limit, m, t, dh);
+        status = kochin(tangent, limit, m, t, h, dh);
     double scale = kochin_coefficient(solution), area = solution->info.hydrostatics.wetted_area;
     for (size_t f = 0; f < n && status == IGABEM_OK; f++) {
         double sum = 0.0, change = 0.0;

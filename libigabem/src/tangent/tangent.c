@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "influence/influence.h"
 #include "solve/formulation.h"
+#include "space/quadrature_regular.h"
 #include "threads.h"
 
 #include <math.h>
@@ -29,12 +30,24 @@ static igabem_status check(const igabem_solution *solution)
     return IGABEM_OK;
 }
 
+/* Points of a rule for the area of an element and its changes: as many as its bend asks for. */
+static void area_points(const struct domain *domain, int points[2])
+{
+    enum { LEAST = 8, MOST = 12 };
+    static const double whole[4] = {0.0, 1.0, 0.0, 1.0}, precise = 1e-12;
+    struct cell_extent extent;
+    cell_extent(domain, whole, &extent);
+    for (int d = 0; d < 2; d++) {
+        const struct factor factor = {domain->element->degree[d], 1.0};
+        int n = shape_points(extent.chord[d], extent.bend[d], &factor, 1.0, precise);
+        points[d] = n < LEAST ? LEAST : n > MOST ? MOST : n;
+    }
+}
+
 /* The wetted area leaves out what closes a transom. */
 static igabem_status area_tangents(igabem_tangent *tangent, double *v)
 {
-    enum { POINTS = 12 };
     static const double whole[4] = {0.0, 1.0, 0.0, 1.0};
-    static const int points[2] = {POINTS, POINTS};
     size_t n = tangent->field->n;
     struct gauss gauss;
     struct nodes nodes;
@@ -46,7 +59,9 @@ static igabem_status area_tangents(igabem_tangent *tangent, double *v)
         if (tangent->solution->density->patch[element->patch].hull.transom)
             continue;
         struct domain domain;
+        int points[2];
         domain_whole(element, &domain);
+        area_points(&domain, points);
         nodes_clear(&nodes);
         cell_nodes(&domain, whole, points, &gauss, &nodes);
         if (nodes.failed)
@@ -55,7 +70,8 @@ static igabem_status area_tangents(igabem_tangent *tangent, double *v)
             double local[2];
             struct area_change area;
             /* the nodes run along the first parameter fastest */
-            double weight = gauss.weight[POINTS][i % POINTS] * gauss.weight[POINTS][i / POINTS];
+            size_t side = (size_t)points[0];
+            double weight = gauss.weight[points[0]][i % side] * gauss.weight[points[1]][i / side];
             nodes_local(&nodes, element, i, local);
             area_change(nodes.jet + 6 * i, nodes.jet + 6 * i + 3, element->sign, &area);
             field_at(tangent->field, element, local, v);
