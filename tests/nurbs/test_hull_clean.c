@@ -83,6 +83,13 @@ static nurbs_surface *plane(double x0, double x1, double y0, double y1, double z
     return bilinear((const double[]){x0, y0, z0, x0, y1, z1, x1, y0, z0, x1, y1, z1});
 }
 
+static nurbs_surface *copied(const nurbs_surface *surface)
+{
+    nurbs_surface *copy;
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_copy(surface, &copy), NURBS_OK);
+    return copy;
+}
+
 /* Takes the surfaces. */
 static nurbs_status hull_of(size_t n, nurbs_surface **surfaces, nurbs_hull **hull)
 {
@@ -165,6 +172,25 @@ static void leaves_out_the_transom(void)
     CHECK_CLOSE(nurbs_hull_hydrostatics(hull)->volume, 0.0025, 1e-7);
     CHECK_CLOSE(nurbs_hull_hydrostatics(hull)->centroid[0], -2.0 / 3, 1e-6);
     nurbs_hull_free(hull);
+}
+
+/* The same stern closed by two faces, the lower one wholly in the water. */
+static void leaves_out_a_transom_in_pieces(void)
+{
+    nurbs_surface *hull_and_faces[3] = {
+        bilinear((const double[]){0, 0.1, 0.1, 0, 0, -0.1, 1, 0, 0.1, 1, 0, -0.1}),
+        bilinear((const double[]){0, 0, 0.1, 0, 0.1, 0.1, 0, 0, -0.04, 0, 0.03, -0.04}),
+        bilinear((const double[]){0, 0, -0.04, 0, 0.03, -0.04, 0, 0, -0.1, 0, 0, -0.1})};
+    nurbs_hull *open = NULL, *closed = NULL;
+    nurbs_surface *side = copied(hull_and_faces[0]);
+    CU_ASSERT_EQUAL_FATAL(hull_of(1, &side, &open), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(hull_of(3, hull_and_faces, &closed), NURBS_OK);
+    CU_ASSERT(tells(closed, "patches 1, 2: a flat face across the stern"));
+    CHECK_CLOSE(nurbs_hull_hydrostatics(closed)->wetted_area,
+                nurbs_hull_hydrostatics(open)->wetted_area, 1e-12);
+    CHECK_CLOSE(nurbs_hull_hydrostatics(closed)->transom_area, 0.005, 1e-7);
+    nurbs_hull_free(open);
+    nurbs_hull_free(closed);
 }
 
 static void any_direction_of_the_parameter_lines(void)
@@ -275,13 +301,6 @@ static void quarters(nurbs_surface *part[4])
     nurbs_surface_free(hull);
 }
 
-static nurbs_surface *copied(const nurbs_surface *surface)
-{
-    nurbs_surface *copy;
-    CU_ASSERT_EQUAL_FATAL(nurbs_surface_copy(surface, &copy), NURBS_OK);
-    return copy;
-}
-
 static void missing_and_doubled_patches_are_refused(void)
 {
     nurbs_surface *part[5];
@@ -316,6 +335,42 @@ static void half_off_the_centre_plane_is_refused(void)
     is_refused(1, &moved, "0.01 m off the centre plane");
 }
 
+/* As much as a lift takes back from overshoots; here all of the stem, the stern and the keel. */
+static void half_beyond_the_centre_plane_is_refused(void)
+{
+    nurbs_surface *hull = skinned(water, keel), *moved;
+    const double shift[3] = {0, -0.004, 0};
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_transform(hull, NULL, shift, &moved), NURBS_OK);
+    nurbs_surface_free(hull);
+    is_refused(1, &moved, "nurbs clean --shift 0,0.004");
+}
+
+/* A hull in another one, and one beside the other that reaches into it. */
+static void bodies_in_bodies_are_refused(void)
+{
+    const double smaller[9] = {0.9, 0, 0, 0, 0.9, 0, 0, 0, 0.9}, aside[3] = {0, 0.7, 0},
+                 away[3] = {0, 1.1, 0};
+    nurbs_surface *outer = skinned(water, keel), *inner = NULL;
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_transform(outer, smaller, NULL, &inner), NURBS_OK);
+    is_refused(2, (nurbs_surface *[]){outer, inner}, "lies inside it");
+    for (int apart = 0; apart < 2; apart++) {
+        nurbs_surface *three[3] = {skinned(water, keel), NULL, NULL},
+                      *other = mirrored(skinned(water, keel));
+        const double *shift = apart ? away : aside;
+        CU_ASSERT_EQUAL_FATAL(nurbs_surface_transform(three[0], NULL, shift, &three[1]), NURBS_OK);
+        CU_ASSERT_EQUAL_FATAL(nurbs_surface_transform(other, NULL, shift, &three[2]), NURBS_OK);
+        nurbs_surface_free(other);
+        if (!apart) {
+            is_refused(3, three, "reaches into another one");
+            continue;
+        }
+        nurbs_hull *hull = NULL;
+        CU_ASSERT_EQUAL_FATAL(hull_of(3, three, &hull), NURBS_OK);
+        CHECK_RELATIVE(nurbs_hull_hydrostatics(hull)->volume, 3 * volume, 1e-4);
+        nurbs_hull_free(hull);
+    }
+}
+
 /* Two hulls side by side, one half given: a demihull whose centre plane is y = 2. */
 static void waterplane_of_a_catamaran(void)
 {
@@ -340,12 +395,15 @@ static void waterplane_of_a_catamaran(void)
 static const struct check_case cases[] = {
     {"leaves out what is no hull", leaves_out_what_is_no_hull},
     {"leaves out the transom", leaves_out_the_transom},
+    {"leaves out a transom in pieces", leaves_out_a_transom_in_pieces},
     {"any direction of the parameter lines", any_direction_of_the_parameter_lines},
     {"upper edge within micrometres", upper_edge_within_micrometres},
     {"seams through the water", seams_through_the_water},
     {"either half, or both in one", either_half_or_both_in_one},
     {"missing and doubled patches are refused", missing_and_doubled_patches_are_refused},
     {"half off the centre plane is refused", half_off_the_centre_plane_is_refused},
+    {"half beyond the centre plane is refused", half_beyond_the_centre_plane_is_refused},
+    {"bodies in bodies are refused", bodies_in_bodies_are_refused},
     {"waterplane of a catamaran", waterplane_of_a_catamaran},
 };
 

@@ -1,5 +1,6 @@
 #include "nurbs_tool.h"
 
+#include <math.h>
 #include <string.h>
 #include <strings.h>
 
@@ -8,14 +9,15 @@ static int report(const char *path, const nurbs_hydrostatics *h, const char *not
 {
     if (json)
         return print_json(json_pack(
-            "{s:s,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:s,s:o}",
+            "{s:s,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:o,s:f,s:f,s:f,s:f,s:f,s:f,s:s,s:o}",
             "file", path, "volume", h->volume, "wetted_area", h->wetted_area, "lcb", h->centroid[0],
             "vcb", h->centroid[2], "waterplane_area", h->waterplane_area, "lcf",
             h->waterplane_centre, "waterplane_inertia_x", h->waterplane_inertia_x,
             "waterplane_inertia_y", h->waterplane_inertia_y, "beam", h->beam, "draft", h->draft,
-            "keel_draft", h->keel_draft, "x_aft", h->x_aft, "x_fore", h->x_fore, "transom_area",
-            h->transom_area, "section_area_max", h->section_area_max, "section_area_max_x",
-            h->section_area_max_x, "error", h->error, "note", note, "warnings", hull_steps(hull)));
+            "keel_draft", isfinite(h->keel_draft) ? json_real(h->keel_draft) : json_null(), "x_aft",
+            h->x_aft, "x_fore", h->x_fore, "transom_area", h->transom_area, "section_area_max",
+            h->section_area_max, "section_area_max_x", h->section_area_max_x, "error", h->error,
+            "note", note, "warnings", hull_steps(hull)));
     printf("%s: %s (metres; both sides; z from the still water)\n", path, note);
     printf("  displaced volume       %.8g\n  wetted area            %.8g\n", h->volume,
            h->wetted_area);
@@ -25,7 +27,11 @@ static int report(const char *path, const nurbs_hydrostatics *h, const char *not
     printf("  waterplane inertia     about x %.8g, about y %.8g\n", h->waterplane_inertia_x,
            h->waterplane_inertia_y);
     printf("  waterline              x %.8g ... %.8g, beam %.8g\n", h->x_aft, h->x_fore, h->beam);
-    printf("  draft                  %.8g, keel amidships %.8g\n", h->draft, h->keel_draft);
+    printf("  draft                  %.8g, keel amidships ", h->draft);
+    if (isfinite(h->keel_draft))
+        printf("%.8g\n", h->keel_draft);
+    else
+        printf("none\n");
     printf("  immersed transom area  %.8g\n", h->transom_area);
     printf("  largest section        %.8g at x %.8g\n", h->section_area_max, h->section_area_max_x);
     printf("  relative error         %.1e (quadrature)\n", h->error);

@@ -24,8 +24,9 @@ typedef struct nurbs_hydrostatics {
         waterplane_inertia_y; /**< m^4 about the x axis, and about y through LCF */
     double beam;              /**< largest breadth at the level, m (of the body when submerged) */
     double draft;             /**< depth of the deepest point below the level, m */
-    double keel_draft;        /**< depth of the keel amidships (x halfway along the waterline), m */
-    double x_aft, x_fore;     /**< ends of the waterline, m (of the body when submerged) */
+    double keel_draft;    /**< depth of the keel amidships (x halfway along the waterline), m; NAN:
+                               nothing lies there */
+    double x_aft, x_fore; /**< ends of the waterline, m (of the body when submerged) */
     double transom_area; /**< m^2, both sides: immersed area of an open stern end, or of the patches
                             that close it (nurbs_transom_patches()); 0 without either */
     double section_area_max, section_area_max_x; /**< m^2, both sides, and where */

@@ -204,6 +204,8 @@ nurbs_status hull_check_edges(const nurbs_hull *hull, bool *bow_aft)
                 .centre = centre_reach * extent};
     if (!status)
         status = check_all(&s);
+    if (!status)
+        status = hull_check_bodies(hull->wetted, &topology, extent);
     *bow_aft = status && s.open_fore && !s.open_aft;
     nurbs_topology_free(&topology);
     return status;

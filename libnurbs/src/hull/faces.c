@@ -14,6 +14,7 @@ enum { ORDER = 6, LIST_SIZE = 120 };
 /* As nurbs_transom_patches(): |Int n dS| over the area, its x component, and the reach from the aft
  * end over the extent. */
 static const double flat = 0.999, facing = 0.7, stern_reach = 0.05;
+static const double plane_reach = 1e-5; /* of the extent: pieces of one plane */
 
 /* Adds patch `index` of `from` with the parameters of its design grid. */
 static nurbs_status add_patch(const nurbs_patches *from, size_t index, nurbs_patches *to)
@@ -81,11 +82,58 @@ static nurbs_status leave_out(nurbs_hull *hull, const bool *drop, const char *wh
     return hull_tell(hull, "%s: %s, no hull: left out", list, why);
 }
 
+/* Whether all control points of b lie in the plane of a flat patch a, and the boxes touch. */
+static nurbs_status continues(const nurbs_hull *hull, const nurbs_surface *a,
+                              const nurbs_surface *b, bool *yes)
+{
+    double clearance = plane_reach * hull->extent;
+    hull_box box[2] = {hull_box_empty(), hull_box_empty()};
+    patch_sums sums;
+    nurbs_status status = hull_box_widen(a, &box[0]);
+    if (!status)
+        status = hull_box_widen(b, &box[1]);
+    if (!status)
+        status = patch_integrate(a, hull->level, ORDER, &sums);
+    if (status)
+        return status;
+    const double *n = sums.normal, *from = nurbs_surface_points(a), *p = nurbs_surface_points(b);
+    double size = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    *yes = size > 0;
+    for (int c = 0; c < 3; c++)
+        *yes &= box[1].lower[c] <= box[0].upper[c] + clearance &&
+                box[1].upper[c] >= box[0].lower[c] - clearance;
+    for (size_t k = 0; k < nurbs_surface_size(b, 0) * nurbs_surface_size(b, 1); k++, p += 3)
+        *yes &= fabs((p[0] - from[0]) * n[0] + (p[1] - from[1]) * n[1] + (p[2] - from[2]) * n[2]) <=
+                clearance * size;
+    return NURBS_OK;
+}
+
+/* What lies beside a marked patch in its plane belongs to it: a transom in pieces. */
+static nurbs_status mark_pieces(const nurbs_hull *hull, bool *drop)
+{
+    size_t n = nurbs_patches_count(hull->full);
+    nurbs_status status = NURBS_OK;
+    for (bool more = true; more && !status;) {
+        more = false;
+        for (size_t a = 0; a < n; a++)
+            for (size_t b = 0; b < n && drop[a] && !status; b++) {
+                bool yes = false;
+                if (drop[b])
+                    continue;
+                status = continues(hull, nurbs_patches_get(hull->full, a),
+                                   nurbs_patches_get(hull->full, b), &yes);
+                drop[b] = yes;
+                more |= yes;
+            }
+    }
+    return status;
+}
+
 /* Marks patches by a rule: box is that of the patch, all that of every patch. */
 typedef nurbs_status rule(const nurbs_hull *hull, const nurbs_surface *patch, const hull_box *box,
                           const hull_box *all, bool *drop);
 
-static nurbs_status apply(nurbs_hull *hull, rule *applies, const char *why)
+static nurbs_status apply(nurbs_hull *hull, rule *applies, bool in_pieces, const char *why)
 {
     hull_box all;
     size_t n = nurbs_patches_count(hull->full);
@@ -99,6 +147,8 @@ static nurbs_status apply(nurbs_hull *hull, rule *applies, const char *why)
         if (!status)
             status = applies(hull, patch, &box, &all, &drop[k]);
     }
+    if (!status && in_pieces)
+        status = mark_pieces(hull, drop);
     if (!status)
         status = leave_out(hull, drop, why);
     free(drop);
@@ -143,11 +193,11 @@ static nurbs_status transom(const nurbs_hull *hull, const nurbs_surface *patch, 
 
 nurbs_status hull_leave_out_centre(nurbs_hull *hull)
 {
-    return apply(hull, in_centre_plane, "in the centre plane");
+    return apply(hull, in_centre_plane, false, "in the centre plane");
 }
 
 nurbs_status hull_leave_out_covers(nurbs_hull *hull)
 {
-    nurbs_status status = apply(hull, level_deck, "level, in the still water or above it");
-    return status ? status : apply(hull, transom, "a flat face across the stern, a transom");
+    nurbs_status status = apply(hull, level_deck, false, "level, in the still water or above it");
+    return status ? status : apply(hull, transom, true, "a flat face across the stern, a transom");
 }

@@ -3,6 +3,7 @@
 #define NURBS_HULL_OBJECT_H
 
 #include <nurbs/hull.h>
+#include <nurbs/topology.h>
 
 /* Relative to the extent in x: a surface that stays within this of a plane lies in it. */
 #define HULL_CLEARANCE 1e-6
@@ -66,6 +67,10 @@ nurbs_status hull_cut_strips(const nurbs_surface *surface, double level, double 
 /* Refuses wetted patches that leave an opening elsewhere than at the stern, or that cover a place
  * twice; *bow_aft: the only openings are at the other end. */
 nurbs_status hull_check_edges(const nurbs_hull *hull, bool *bow_aft);
+
+/* Refuses bodies, parts that share no edges, that reach into each other. */
+nurbs_status hull_check_bodies(const nurbs_patches *patches, const nurbs_topology *topology,
+                               double extent);
 
 /* From the file's patches, which `full` holds, to wetted and light ones. */
 nurbs_status hull_choose_level(nurbs_hull *hull, const hull_box *box);

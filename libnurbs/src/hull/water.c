@@ -49,6 +49,27 @@ static nurbs_status cut_patch(const nurbs_surface *patch, double level, double e
     return status;
 }
 
+/* How far an edge lies beyond the centre plane, if all of it does, as far in one place as in
+ * another: a half that was put beside it, and no overshoot. */
+static double beside(const nurbs_surface *patch)
+{
+    const size_t n[2] = {nurbs_surface_size(patch, 0), nurbs_surface_size(patch, 1)};
+    double most = 0;
+    for (int e = 0; e < 4; e++) {
+        size_t fixed = e % 2 ? n[e / 2] - 1 : 0, count = n[!(e / 2)];
+        double low = INFINITY, high = -INFINITY;
+        for (size_t k = 0; k < count; k++) {
+            const double *at =
+                nurbs_surface_points(patch) + 3 * (e < 2 ? fixed * n[1] + k : k * n[1] + fixed);
+            low = fmin(low, at[1]);
+            high = fmax(high, at[1]);
+        }
+        if (high < 0 && low > 1.1 * high)
+            most = fmax(most, -high);
+    }
+    return most;
+}
+
 /* A half hull off the wrong side of the centre plane; *lifted NULL where nothing is to be done. */
 static nurbs_status lift(nurbs_hull *hull, const nurbs_surface *patch, const hull_box *box,
                          nurbs_surface **lifted, double *moved)
@@ -57,6 +78,12 @@ static nurbs_status lift(nurbs_hull *hull, const nurbs_surface *patch, const hul
     *moved = 0;
     if (box->lower[1] >= 0 || box->upper[1] <= -box->lower[1] || nurbs_surface_weights(patch))
         return NURBS_OK;
+    double off = beside(patch);
+    if (off > centre_reach * hull->extent)
+        return nurbs_fail(NURBS_ERROR_GEOMETRY,
+                          "an edge of a patch lies %.3g m beyond the centre plane, all along it: "
+                          "expected %.3g m at most",
+                          off, centre_reach * hull->extent);
     nurbs_status status = nurbs_surface_raise_side(patch, lifted, moved);
     if (!status && *moved > most_lift * hull->extent)
         status =
@@ -235,6 +262,8 @@ static nurbs_status file_draft(nurbs_hull *hull, double *draft)
         status = hull_hydrostatics(wetted, box.lower[1] > -HULL_CLEARANCE * hull->extent, &h);
     nurbs_patches_free(wetted);
     *draft = h.keel_draft;
+    if (!status && isnan(*draft))
+        status = nurbs_fail(NURBS_ERROR_GEOMETRY, "nothing lies halfway along the waterline");
     return status ? nurbs_fail_in(status, "keel draft at z = 0") : NURBS_OK;
 }
 

@@ -112,7 +112,7 @@ static nurbs_status fill_depths(size_t n, const nurbs_surface *const *patches, c
         status =
             section_area(n, patches, sign, 0.5 * (result->x_aft + result->x_fore), &area, &keel);
     result->draft = level - lowest;
-    result->keel_draft = level - keel;
+    result->keel_draft = isfinite(keel) ? level - keel : NAN;
     return status;
 }
 

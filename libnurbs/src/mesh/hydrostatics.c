@@ -327,7 +327,7 @@ static void fill_sections(const body *b, double sides, nurbs_hydrostatics *r)
     }
     keel = INFINITY;
     section_area(b, 0.5 * (r->x_aft + r->x_fore), &keel);
-    r->keel_draft = isfinite(keel) ? b->level - keel : 0;
+    r->keel_draft = isfinite(keel) ? b->level - keel : NAN;
 }
 
 static void fill(const body *b, const sums *s, nurbs_hydrostatics *r)
