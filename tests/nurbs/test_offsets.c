@@ -1,6 +1,7 @@
 /* Offset tables and station files: forms whose volume is known, and Series 60. */
 #include "check.h"
 #include "hulls.h"
+#include "iges_writer.h"
 
 #include <string.h>
 #include <unistd.h>
@@ -252,6 +253,74 @@ static void refuses_what_makes_no_sense(void)
                     NURBS_ERROR_ARGUMENT);
 }
 
+/* Sections of the Wigley hull, 10 m long, as an IGES file has them: exact parabolas (126) from the
+ * water down, polylines (106) or lines (110) above it, in either direction; a waterline and a
+ * profile beside them. */
+static void wigley_curves(iges_writer *w, bool from_side_to_side, double sign)
+{
+    enum { STATIONS = 21 };
+    const double B = 1, T = 0.625;
+    w->count = 0;
+    iges_add(w, 110, 0, 0, 0, "110,-5.0,0.0,0.0,5.0,0.0,-0.1;");
+    for (int k = 0; k < STATIONS; k++) {
+        double x = 5 * cos(3.14159265358979 * (k * 8 % STATIONS) / (STATIONS - 1)),
+               y = sign * B / 2 * (1 - x * x / 25);
+        if (from_side_to_side) {
+            iges_add(
+                w, 126, 0, 0, 0,
+                "126,2,2,1,0,1,0,0.0,0.0,0.0,1.0,1.0,1.0,1.0,1.0,1.0,%.15g,%.15g,0.0,%.15g,0.0,"
+                "%.15g,%.15g,%.15g,0.0,0.0,1.0,0.0,0.0,1.0;",
+                x, y, x, -2 * T, x, -y);
+            continue;
+        }
+        iges_add(w, 126, 0, 0, 0,
+                 "126,2,2,1,0,1,0,0.0,0.0,0.0,1.0,1.0,1.0,1.0,1.0,1.0,%.15g,0.0,%.15g,%.15g,%.15g,"
+                 "%.15g,%.15g,%.15g,0.0,0.0,1.0,0.0,0.0,1.0;",
+                 x, -T, x, y, -T / 2, x, y);
+        if (k % 2)
+            iges_add(w, 110, 0, 0, 0, "110,%.15g,%.15g,0.3,%.15g,%.15g,0.0;", x, y, x, y);
+        else
+            iges_add(w, 106, 12, 0, 0, "106,2,3,%.15g,%.15g,0.0,%.15g,%.15g,0.1,%.15g,%.15g,0.3;",
+                     x, y, x, y, x, y);
+    }
+}
+
+static void sections_of_curves(void)
+{
+    static iges_writer w;
+    for (int k = 0; k < 3; k++) {
+        nurbs_grid *grid = NULL;
+        size_t others = 0;
+        wigley_curves(&w, k == 2, k == 1 ? -1 : 1);
+        const char *path = iges_save(&w, "6,1HM");
+        nurbs_status status = nurbs_sections_read_iges(path, 0, &grid, &others);
+        unlink(path);
+        if (status)
+            fprintf(stderr, "%s\n", nurbs_last_error());
+        CU_ASSERT_EQUAL_FATAL(status, NURBS_OK);
+        CU_ASSERT_EQUAL(nurbs_grid_rows(grid), 21);
+        CU_ASSERT_EQUAL(others, 1);
+        nurbs_hydrostatics h = hydrostatics_of(grid, NULL);
+        /* From side to side: parabolas y^2 ~ z + T, 2/3 of the box of each section. */
+        CHECK_RELATIVE(h.volume, 4. / 9 * 10 * 0.625, 1e-3);
+        CHECK_RELATIVE(h.waterplane_area, 2. / 3 * 10, 1e-4);
+        nurbs_grid_free(grid);
+    }
+    nurbs_grid *grid = NULL;
+    w.count = 1;
+    const char *path = iges_save(&w, "6,1HM");
+    CU_ASSERT_EQUAL(nurbs_sections_read_iges(path, 0, &grid, NULL), NURBS_ERROR_GEOMETRY);
+    CU_ASSERT_PTR_NOT_NULL(strstr(nurbs_last_error(), "0 sections among them"));
+    wigley_curves(&w, false, 1);
+    /* A second curve beside a section that does not meet it. */
+    iges_add(&w, 110, 0, 0, 0, "110,5.0,0.2,0.3,5.0,0.2,0.1;");
+    path = iges_save(&w, "6,1HM");
+    CU_ASSERT_EQUAL(nurbs_sections_read_iges(path, 0, &grid, NULL), NURBS_ERROR_GEOMETRY);
+    CU_ASSERT_PTR_NOT_NULL(strstr(nurbs_last_error(), "do not meet"));
+    unlink(path);
+    CU_ASSERT_PTR_NULL(grid);
+}
+
 static const struct check_case cases[] = {
     {"Series 60 has its coefficients", series60_has_its_coefficients},
     {"reads a parabolic hull", reads_a_parabolic_hull},
@@ -259,6 +328,7 @@ static const struct check_case cases[] = {
     {"reads profiles", reads_profiles},
     {"reads station files", reads_station_files},
     {"refuses what makes no sense", refuses_what_makes_no_sense},
+    {"sections of curves", sections_of_curves},
 };
 
 CHECK_MAIN("offset tables", cases)

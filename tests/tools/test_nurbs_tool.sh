@@ -224,6 +224,16 @@ says "triangles, lengths taken as metres"
 expect 0 "$nurbs" hydrostatics surface.json --json
 close volume 0.0039997615 1e-3
 expect 0 "$nurbs" sections surface.json -o points.csv --rows 30 --columns 20 --json
+expect 0 "$nurbs" grid bulb.stl -o points.csv --json
+close columns 32 0
+expect 0 "$nurbs" skin points.csv -o skinned.json
+expect 0 "$nurbs" hydrostatics skinned.json --json
+close volume 0.0039997615 1e-3
+expect 0 "$nurbs" convert bulb.stl bulb.igs
+expect 0 "$nurbs" hydrostatics bulb.igs --json
+close volume 0.0039997615 1e-3
+expect 1 "$nurbs" skin "$source/tests/data/iges_curves.igs" -o sections.json
+says "0 sections among them"
 expect 0 "$nurbs" hydrostatics "$hulls/series60.offsets.csv" --json
 expect 2 "$nurbs" sections bulb.stl
 expect 2 "$nurbs" clean wigley.json ship.json --shift 1,2

@@ -1,5 +1,7 @@
 #include "nurbs_tool.h"
 
+#include <math.h>
+
 struct request {
     double scale, length, untrim;
     const char *note;
@@ -12,7 +14,9 @@ static int convert(const char *input, const char *output, const struct request *
     char report[4000] = "";
     nurbs_patches *read = NULL, *written = NULL;
     nurbs_status status =
-        nurbs_patches_read_reported(input, request->untrim, &read, report, sizeof report);
+        is_skinned(input)
+            ? nurbs_hull_read_patches(input, NAN, &read, report, sizeof report)
+            : nurbs_patches_read_reported(input, request->untrim, &read, report, sizeof report);
     if (status != NURBS_OK)
         return library_failure();
     const double matrix[9] = {scale, 0, 0, 0, scale, 0, 0, 0, scale};
@@ -52,8 +56,10 @@ static int run(int argc, char **argv)
 const subcommand convert_command = {
     "convert", "change the file format", run,
     "usage: nurbs convert IN OUT [options]\n"
-    "  By extension: reads .json .igs .iges .step .stp, writes these and .stl .vtu .csv. What the\n"
-    "  file held and what was changed is told on standard error.\n"
+    "  By extension: reads .json .igs .iges .step .stp, writes these and .stl .vtu .csv. "
+    "Triangles\n"
+    "  (.stl .obj), offset tables, stations and grids (.csv) become the one surface of 'nurbs\n"
+    "  sections'. What the file held and what was changed is told on standard error.\n"
     "  --untrim T     faces that loops cut out of B-spline surfaces become patches of their own,\n"
     "                 within T metres (those of IGES files are kept whole)\n"
     "  --scale S      multiply all lengths\n"

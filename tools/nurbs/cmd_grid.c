@@ -33,7 +33,8 @@ const subcommand grid_command = {
     "grid", "sample the design grid of a surface", run,
     "usage: nurbs grid FILE -o GRID.csv [options]\n"
     "  Points of one patch on a grid of parameters: those kept in the file by 'nurbs skin' and\n"
-    "  'nurbs fit' when the numbers agree, else evenly between the Greville points.\n"
+    "  'nurbs fit' when the numbers agree, else evenly between the Greville points. FILE may be\n"
+    "  triangles (.stl .obj) or an offset table: the points are those of its one surface.\n"
     "  --rows N       number of u parameters (as kept, or as control points)\n"
     "  --columns N    number of v parameters\n"
     "  --patch K      patch, counted from 0 (0)\n"

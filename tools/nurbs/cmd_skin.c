@@ -139,12 +139,20 @@ static bool ends_with(const char *path, const char *end)
     return length > n && strcmp(path + length - n, end) == 0;
 }
 
-/* A grid, an offset table or a station file; a table tells its length and knuckle. */
+/* A grid, an offset table, a station file or curves; a table tells its length and knuckle. */
 static nurbs_status read_sections(const char *path, struct request *request, nurbs_grid **grid)
 {
     nurbs_offsets_info info;
     if (ends_with(path, ".stations"))
         return nurbs_stations_read(path, 0, grid);
+    if (ends_with(path, ".igs") || ends_with(path, ".iges")) {
+        size_t others;
+        nurbs_status found = nurbs_sections_read_iges(path, 0, grid, &others);
+        if (found == NURBS_OK && others > 0)
+            fprintf(stderr, "%s: %s: %zu curves that are no sections: left out\n", cli_name(), path,
+                    others);
+        return found;
+    }
     if (!ends_with(path, ".offsets.csv"))
         return nurbs_grid_read(path, grid);
     nurbs_status status = nurbs_offsets_read(path, 0, grid, &info);
@@ -201,7 +209,8 @@ const subcommand skin_command = {
     "usage: nurbs skin GRID.csv -o FILE [options]\n"
     "  One surface through every point of the grid; u runs along the rows (sections), v along\n"
     "  the columns. The parameters of the points are kept in the file for 'nurbs grid'.\n"
-    "  GRID may also be an offset table, FILE.offsets.csv, or a station file, FILE.stations.\n"
+    "  GRID may also be an offset table, FILE.offsets.csv, a station file, FILE.stations, or the\n"
+    "  sections that an IGES file holds as curves, FILE.igs.\n"
     "  --tolerance T  drop control points as long as the surface moves less than T "
     "metres\n" SKIN_OPTIONS};
 

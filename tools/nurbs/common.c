@@ -3,6 +3,8 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
+#include <strings.h>
 
 enum { REPORT_SIZE = 4000 };
 
@@ -116,10 +118,23 @@ int library_failure(void)
     return cli_fail("%s", nurbs_last_error());
 }
 
+bool is_skinned(const char *path)
+{
+    static const char *const extensions[] = {".stl", ".obj", ".csv", ".stations"};
+    const char *dot = strrchr(path, '.');
+    for (size_t k = 0; dot && k < sizeof extensions / sizeof *extensions; k++)
+        if (strcasecmp(dot, extensions[k]) == 0)
+            return true;
+    return false;
+}
+
 int load_patches(const char *path, nurbs_patches **patches)
 {
     char report[REPORT_SIZE];
-    if (nurbs_patches_read_reported(path, 0, patches, report, sizeof report) != NURBS_OK)
+    nurbs_status status =
+        is_skinned(path) ? nurbs_hull_read_patches(path, NAN, patches, report, sizeof report)
+                         : nurbs_patches_read_reported(path, 0, patches, report, sizeof report);
+    if (status != NURBS_OK)
         return library_failure();
     if (*report)
         fprintf(stderr, "%s: %s: %s\n", cli_name(), path, report);

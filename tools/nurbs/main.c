@@ -27,14 +27,17 @@ static int print_help(void)
         printf("  %-13s %s\n", commands[k]->name, commands[k]->summary);
     for (size_t k = 0; k < COMMANDS; k++)
         printf("\n%s", commands[k]->help);
-    return cli_print("\nOptions of every command:\n"
-                     "  --json         print one JSON object on standard output and nothing else\n"
-                     "  --threads N    threads to use\n"
-                     "  --help         print this text, or the text of a command\n"
-                     "  --version      print the version\n\n"
-                     "Files: .json (NURBS file, see docs/nurbs.md), .igs and .iges are read and\n"
-                     "written; .stl, .vtu and .csv are written. Lengths are in metres.\n\n"
-                     "Exit status: 0 success, 1 the run failed, 2 wrong usage.\n");
+    return cli_print(
+        "\nOptions of every command:\n"
+        "  --json         print one JSON object on standard output and nothing else\n"
+        "  --threads N    threads to use\n"
+        "  --help         print this text, or the text of a command\n"
+        "  --version      print the version\n\n"
+        "Files: .json (NURBS file, see docs/nurbs.md), .igs, .iges, .step and .stp are\n"
+        "read and written; .stl, .vtu and .csv are written; .stl, .obj, .offsets.csv,\n"
+        ".stations and grids .csv are read as the one surface through them. Lengths are\n"
+        "in metres.\n\n"
+        "Exit status: 0 success, 1 the run failed, 2 wrong usage.\n");
 }
 
 static int run_nurbs(int argc, char **argv)

@@ -66,6 +66,10 @@ int print_json(json_t *object);
 /* "nurbs: <last error>" on stderr; returns CLI_FAILED. */
 int library_failure(void);
 
+/* Whether a file holds triangles, offsets, stations or a grid, which are read as the one surface
+ * through them. */
+bool is_skinned(const char *path);
+
 /* Reads a NURBS file of any format that is read. */
 int load_patches(const char *path, nurbs_patches **patches);
 int load_surface(const char *path, size_t index, nurbs_patches **patches,

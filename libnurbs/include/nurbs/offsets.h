@@ -63,6 +63,16 @@ NURBS_API nurbs_status nurbs_offsets_read(const char *path, size_t columns, nurb
  */
 NURBS_API nurbs_status nurbs_stations_read(const char *path, size_t columns, nurbs_grid **grid);
 
+/** Reads the sections that an IGES file holds as curves (nurbs_curves_read_iges()): those that keep
+ * within 5 % of the length in x, in any order and direction. Pieces whose ends meet within 1e-4 of
+ * the length are one section; of sections from side to side the port half is taken, sections to
+ * starboard alone are mirrored. Points of polylines are joined by cubics as above; corners of other
+ * curves are passed at equal shares of the length.
+ * @param left_out  fills the number of other curves, as waterlines and profiles; NULL: not wanted
+ * Errors: NURBS_ERROR_GEOMETRY: fewer than two sections, pieces of one that do not meet. */
+NURBS_API nurbs_status nurbs_sections_read_iges(const char *path, size_t columns, nurbs_grid **grid,
+                                                size_t *left_out);
+
 #ifdef __cplusplus
 }
 #endif
