@@ -3,7 +3,6 @@
 #include "core/error.h"
 #include "influence/influence.h"
 #include "solve/formulation.h"
-#include "space/quadrature_regular.h"
 #include "threads.h"
 
 #include <math.h>
@@ -30,24 +29,32 @@ static igabem_status check(const igabem_solution *solution)
     return IGABEM_OK;
 }
 
-/* Points of a rule for the area of an element and its changes: as many as its bend asks for. */
-static void area_points(const struct domain *domain, int points[2])
+/* Nodes for the area of an element and its changes: more where two rules differ. */
+static void area_nodes(const struct element *element, const struct gauss *gauss,
+                       struct nodes *nodes, int *points)
 {
-    enum { LEAST = 8, MOST = 12 };
-    static const double whole[4] = {0.0, 1.0, 0.0, 1.0}, precise = 1e-12;
-    struct cell_extent extent;
-    cell_extent(domain, whole, &extent);
-    for (int d = 0; d < 2; d++) {
-        const struct factor factor = {domain->element->degree[d], 1.0};
-        int n = shape_points(extent.chord[d], extent.bend[d], &factor, 1.0, precise);
-        points[d] = n < LEAST ? LEAST : n > MOST ? MOST : n;
+    static const int few = 6, more = 8, most = GAUSS_MAX;
+    static const double whole[4] = {0.0, 1.0, 0.0, 1.0}, agreed = 1e-10;
+    struct domain domain;
+    double area[2] = {0.0, 0.0};
+    domain_whole(element, &domain);
+    for (int k = 0; k < 2; k++) {
+        *points = k ? more : few;
+        nodes_clear(nodes);
+        cell_nodes(&domain, whole, (const int[]){*points, *points}, gauss, nodes);
+        for (size_t i = 0; i < nodes->n; i++)
+            area[k] += nodes->g[i];
     }
+    if (fabs(area[1] - area[0]) <= agreed * area[1])
+        return;
+    *points = most;
+    nodes_clear(nodes);
+    cell_nodes(&domain, whole, (const int[]){most, most}, gauss, nodes);
 }
 
 /* The wetted area leaves out what closes a transom. */
 static igabem_status area_tangents(igabem_tangent *tangent, double *v)
 {
-    static const double whole[4] = {0.0, 1.0, 0.0, 1.0};
     size_t n = tangent->field->n;
     struct gauss gauss;
     struct nodes nodes;
@@ -58,20 +65,16 @@ static igabem_status area_tangents(igabem_tangent *tangent, double *v)
         const struct element *element = &tangent->mesh->element[e];
         if (tangent->solution->density->patch[element->patch].hull.transom)
             continue;
-        struct domain domain;
-        int points[2];
-        domain_whole(element, &domain);
-        area_points(&domain, points);
-        nodes_clear(&nodes);
-        cell_nodes(&domain, whole, points, &gauss, &nodes);
+        int points;
+        area_nodes(element, &gauss, &nodes, &points);
         if (nodes.failed)
             status = tangent_no_memory(n);
         for (size_t i = 0; i < nodes.n && status == IGABEM_OK; i++) {
             double local[2];
             struct area_change area;
             /* the nodes run along the first parameter fastest */
-            size_t side = (size_t)points[0];
-            double weight = gauss.weight[points[0]][i % side] * gauss.weight[points[1]][i / side];
+            size_t side = (size_t)points;
+            double weight = gauss.weight[points][i % side] * gauss.weight[points][i / side];
             nodes_local(&nodes, element, i, local);
             area_change(nodes.jet + 6 * i, nodes.jet + 6 * i + 3, element->sign, &area);
             field_at(tangent->field, element, local, v);
