@@ -99,6 +99,7 @@ static void print_igabem(void)
     D(igabem_options, stern_blend);
     D(igabem_options, tolerance);
     I(igabem_options, threads);
+    D(igabem_options, keep_system);
     END;
     BEGIN(igabem_forces);
     D(igabem_forces, speed);
@@ -206,6 +207,7 @@ int main(void)
     VALUE(IGABEM_KERNEL_KELVIN);
     VALUE(IGABEM_KERNEL_DOUBLE_BODY);
     VALUE(IGABEM_KERNEL_RANKINE);
+    VALUE(IGABEM_WAVE_RESIDUALS);
     VALUE(IGABEM_RANKINE);
     VALUE(IGABEM_IMAGE);
     VALUE(IGABEM_LOCAL);

@@ -147,6 +147,30 @@ class Flow(unittest.TestCase):
         velocity, pressure = flow.velocity([[0.5, 0.5]])
         self.assertTrue(np.isfinite(velocity).all() and np.isfinite(pressure).all())
 
+    def test_tangent(self):
+        # Hogner's sources follow the surface: H of the hull moved by 1e-4 either way.
+        hull = nurbs.Hull([nurbs.Surface.wigley()])
+        surface = hull.surfaces[0]
+        move = np.zeros((2, *surface.points.shape))
+        move[0, ..., 1] = surface.points[..., 1]
+        move[1, ..., 1] = surface.points[..., 1] * surface.points[..., 0]
+        options = {"formulation": "hogner", "elements_u": 8, "elements_v": 4, "cutoff_angle": 6, "stem_limit": 0.4,
+                   "keep_system": 1}
+        flow, t = igabem.solve(hull, 0.35, **options), np.array([0, 1, 3])
+        tangent = flow.tangent(hull, move.reshape(2, -1, 3))
+        r = flow.wave_residuals()
+        self.assertAlmostEqual((r @ r) / flow.forces["cw"], 1, 3)
+        np.testing.assert_allclose(2 * tangent.wave_residuals() @ r, tangent.cw, rtol=2e-3)
+        self.assertGreater(tangent.wetted_area[0], 0)
+        for k in range(2):
+            h = []
+            for step in (-1e-4, 1e-4):
+                moved = nurbs.Surface(surface.degree, *surface.knots, surface.points + step * move[k])
+                h.append(igabem.solve(nurbs.Hull([moved]), 0.35, **options).kochin(t)[0])
+            np.testing.assert_allclose(tangent.kochin(t)[k], (h[1] - h[0]) / 2e-4, atol=1e-5 * abs(h[0]).max())
+        with self.assertRaises(ValueError):
+            flow.tangent(hull, move)
+
     def test_options(self):
         hull = nurbs.Hull([nurbs.Surface.wigley()])
         flow = igabem.solve(hull, 0.35, formulation="michell", elements_u=12, elements_v=4)

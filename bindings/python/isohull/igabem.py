@@ -92,6 +92,60 @@ class Solution(Handle):
                     pointer(velocity), pointer(pressure))
         return velocity, pressure
 
+    def wave_residuals(self):
+        """C_w as a sum of squares: the Kochin function at 160 wave angles, weighted, 320 numbers."""
+        r = np.empty(VALUE["IGABEM_WAVE_RESIDUALS"])
+        IGABEM.call("wave_residuals", self._as_parameter, pointer(r))
+        return r
+
+    def tangent(self, hull, move):
+        """Derivatives along n fields of moves of the control points, n x points x 3, all surfaces of
+        hull.surfaces one after the other, y alone. hull: the nurbs.Hull that was solved. Solving with
+        keep_system=1 saves half of the time."""
+        return Tangent(self, hull, move)
+
+
+class Tangent(Handle):
+    """The derivatives of a solution along fields of moves of its hull."""
+
+    LIBRARY, FREE = IGABEM, "tangent_free"
+
+    def __init__(self, solution, hull, move):
+        made = Created()
+        IGABEM.call("hull_from", hull._as_parameter, made.place())
+        body, points = _Hull(made.value), sum(int(np.prod(s.shape)) for s in hull.surfaces)
+        move, made = array(move, None, points, 3), Created()
+        IGABEM.call("tangent_create", body._as_parameter, solution._as_parameter, size(len(move)), pointer(move),
+                    made.place())
+        super().__init__(made.value)
+        self._solution, self._fields = solution, len(move)
+
+    def _fill(self, name, *shape):
+        out = np.empty((self._fields, *shape))
+        IGABEM.call(name, self._as_parameter, pointer(out))
+        return out
+
+    @property
+    def cw(self):
+        """Of forces["cw"], n."""
+        return self._fill("tangent_cw")
+
+    @property
+    def wetted_area(self):
+        """Of forces["wetted_area"], n, m^2."""
+        return self._fill("tangent_wetted_area")
+
+    def wave_residuals(self):
+        """Of Solution.wave_residuals(), n x 320: the Jacobian for Gauss-Newton."""
+        return self._fill("tangent_residuals", VALUE["IGABEM_WAVE_RESIDUALS"])
+
+    def kochin(self, t):
+        """Of the complex Kochin function at t, n x len(t)."""
+        t = array(t, None)
+        h = np.empty((self._fields, t.size, 2))
+        IGABEM.call("tangent_kochin", self._as_parameter, size(t.size), pointer(t), pointer(h))
+        return h[..., 0] + 1j * h[..., 1]
+
 
 def _settings(hull, kernel, formulation, unknowns, options):
     settings, chosen = STRUCTURE["igabem_options"](), ctypes.c_int()
