@@ -79,6 +79,7 @@ static bool problem_fields(const struct bayesopt *bo, struct field *f)
            *kinds = malloc((bo->d + 2) * sizeof *kinds);
     double objectives[3] = {(double)o->n_objectives, bo->maximise[1], bo->maximise[2]};
     split_seed(o->seed, seed);
+    memset(f, 0, FIELDS * sizeof *f);
     if (!kinds || (bo->group && !(group = malloc(bo->d * sizeof *group)))) {
         free(kinds);
         return false;

@@ -13,7 +13,7 @@
 
 /* A section being filled: fields are packed into lines and never broken. */
 typedef struct writer {
-    FILE *stream;
+    FILE *stream; /* NULL: only count lines */
     char letter;
     size_t width;     /* columns for data: 72, or 64 before the directory pointer */
     size_t sequence;  /* lines written in this section */
@@ -27,10 +27,12 @@ static void flush_line(writer *out)
     if (out->used == 0)
         return;
     out->sequence++;
-    fprintf(out->stream, "%-*s", (int)out->width, out->line);
-    if (out->letter == 'P')
-        fprintf(out->stream, "%8zu", out->directory);
-    fprintf(out->stream, "%c%7zu\n", out->letter, out->sequence % 10000000);
+    if (out->stream) {
+        fprintf(out->stream, "%-*s", (int)out->width, out->line);
+        if (out->letter == 'P')
+            fprintf(out->stream, "%8zu", out->directory);
+        fprintf(out->stream, "%c%7zu\n", out->letter, out->sequence % 10000000);
+    }
     out->used = 0;
     out->line[0] = '\0';
 }
@@ -175,33 +177,28 @@ static void write_surface(writer *out, const nurbs_surface *surface, double reac
     flush_line(out);
 }
 
-/* The directory comes before the parameters but holds their line numbers: the parameters are first
- * written to a stream in memory. */
-static nurbs_status write_entities(FILE *stream, const nurbs_patches *patches, double reach,
-                                   size_t lines[2])
+/* The directory comes before the parameters but holds their line numbers: they are counted first.
+ */
+static void write_entities(FILE *stream, const nurbs_patches *patches, double reach,
+                           size_t lines[2])
 {
-    char *text = NULL;
-    size_t size = 0, count = nurbs_patches_count(patches);
-    FILE *memory = open_memstream(&text, &size);
-    if (!memory)
-        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for an IGES file of %zu patches", count);
-    writer out = {.stream = memory, .letter = 'P', .width = 64};
+    size_t count = nurbs_patches_count(patches);
+    writer counter = {.letter = 'P', .width = 64}, out = counter;
     for (size_t k = 0; k < count; k++) {
-        size_t first = out.sequence + 1;
-        out.directory = 2 * k + 1;
-        write_surface(&out, nurbs_patches_get(patches, k), reach);
+        size_t first = counter.sequence + 1;
+        write_surface(&counter, nurbs_patches_get(patches, k), reach);
         fprintf(stream, "%8d%8zu%8d%8d%8d%8d%8d%8d%08dD%7zu\n", 128, first, 0, 0, 0, 0, 0, 0, 0,
                 2 * k + 1);
-        fprintf(stream, "%8d%8d%8d%8zu%8d%8s%8s%8s%8dD%7zu\n", 128, 0, 0, out.sequence + 1 - first,
-                0, "", "", "HULL", 0, 2 * k + 2);
+        fprintf(stream, "%8d%8d%8d%8zu%8d%8s%8s%8s%8dD%7zu\n", 128, 0, 0,
+                counter.sequence + 1 - first, 0, "", "", "HULL", 0, 2 * k + 2);
     }
-    int failed = fclose(memory) != 0;
-    if (!failed)
-        fwrite(text, 1, size, stream);
-    free(text);
+    out.stream = stream;
+    for (size_t k = 0; k < count; k++) {
+        out.directory = 2 * k + 1;
+        write_surface(&out, nurbs_patches_get(patches, k), reach);
+    }
     lines[0] = 2 * count;
     lines[1] = out.sequence;
-    return failed ? nurbs_fail(NURBS_ERROR_MEMORY, "no memory for an IGES file") : NURBS_OK;
 }
 
 nurbs_status nurbs_patches_write_iges(const nurbs_patches *patches, const char *path)
@@ -217,11 +214,7 @@ nurbs_status nurbs_patches_write_iges(const nurbs_patches *patches, const char *
     double reach = largest_coordinate(patches);
     fprintf(file.stream, "%-72sS%7d\n", "NURBS surfaces, lengths in metres", 1);
     size_t global = write_global(file.stream, path, reach);
-    status = write_entities(file.stream, patches, reach, lines);
-    if (status != NURBS_OK) {
-        outfile_abandon(&file);
-        return status;
-    }
+    write_entities(file.stream, patches, reach, lines);
     fprintf(file.stream, "S%7dG%7zuD%7zuP%7zu%40sT%7d\n", 1, global, lines[0], lines[1], "", 1);
     return outfile_commit(&file);
 }
