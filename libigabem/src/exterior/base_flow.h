@@ -13,7 +13,7 @@
  * cells, from its coefficients. */
 igabem_status base_flow_create(const struct influence *hull, const struct free_surface *surface,
                                const struct transom *transom, const struct influence *face,
-                               const struct sparse *edge, struct base_point **points);
+                               struct base_point **points);
 
 /* What is known in the condition on the surface, over the speed: it holds second(phi) less this, in
  * place of phi_xx. */
@@ -23,11 +23,13 @@ double base_flow_known(const struct base_point *point);
 void base_flow_at(const struct free_surface *surface, const struct base_point *points,
                   const struct free_surface_place *place, double gradient[2]);
 
-/* Beyond the waterline, the cells radiate by what their strength differs from phi_xx: fills
- * excess[nx ny], m^3/s. second: the operator's rows; phi: the unknowns and after them the hull's
- * edge. */
-igabem_status base_flow_excess(const struct free_surface *surface, const struct base_point *points,
-                               const struct sparse *second, const double *phi, double speed,
-                               double k0, double *excess);
+/* What the cells radiate, in so many parts to a side of each: fills part[nx ny SIDE^2], columns as
+ * those of sources_append(), with
+ *     strength  (a.grad phi - U b) dS/k0,   a_i = w_k Phi_ki,
+ *     dipole    (w (w.grad phi) - e_x phi_x) dS/k0
+ * (docs/theory.md, section 14). phi: the unknowns and after them the hull's edge. */
+enum { BASE_FLOW_SIDE = 3 };
+void base_flow_radiate(const struct free_surface *surface, const struct base_point *points,
+                       const double *phi, double speed, double k0, double (*part)[7]);
 
 #endif

@@ -19,7 +19,6 @@ void exterior_system_free(struct exterior_system *system)
     free(system->slope);
     free(system->known);
     free(system->base);
-    sparse_free(&system->second);
     *system = (struct exterior_system){0};
 }
 
@@ -276,16 +275,12 @@ igabem_status exterior_system_create(const struct influence *hull,
     if (status != IGABEM_OK)
         return status;
     if (double_model)
-        status = base_flow_create(hull, surface, transom, assembly.influence[PART_FACE],
-                                  &assembly.edge, &system->base);
+        status =
+            base_flow_create(hull, surface, transom, assembly.influence[PART_FACE], &system->base);
     if (status == IGABEM_OK)
         status = operator_create(surface, system->base, &assembly.operator_);
     if (status == IGABEM_OK)
         status = fill(&assembly, hull, system);
-    if (status == IGABEM_OK && double_model) {
-        system->second = assembly.operator_.second;
-        assembly.operator_.second = (struct sparse){0};
-    }
     assembly_free(&assembly);
     return status;
 }

@@ -15,7 +15,6 @@ struct exterior_system {
     size_t n, hull, cells; /* unknowns, those on the hull and on the free surface */
     double *fixed, *wave, *odd, *right, *slope, *known;
     struct base_point *base; /* of each cell; NULL: linearised about the free stream */
-    struct sparse second;    /* of the operator about base, else empty */
 };
 
 /* transom: NULL without one. double_model: linearised about the double-body flow. */

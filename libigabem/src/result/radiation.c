@@ -1,7 +1,7 @@
 #include "result/radiation.h"
 
 #include "core/error.h"
-#include "exterior/free_surface.h"
+#include "exterior/base_flow.h"
 #include "exterior/transom.h"
 
 #include <math.h>
@@ -97,33 +97,6 @@ static igabem_status add_face(const igabem_solution *solution, struct sources *s
     return status;
 }
 
-/* The cells of a double model: sources in the still water, so many to a side of a cell. */
-static igabem_status add_cells(const igabem_solution *solution, struct sources *sources)
-{
-    enum { SIDE = 3 };
-    const struct free_surface *surface = solution->surface;
-    size_t cells = surface->nx * surface->ny, n = 0;
-    double(*line)[4] = malloc(cells * SIDE * SIDE * sizeof *line);
-    if (!line)
-        return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu cells of the free surface",
-                           cells);
-    for (size_t c = 0; c < cells; c++)
-        for (int a = 0; a < SIDE; a++)
-            for (int b = 0; b < SIDE; b++) {
-                double xi = (double)(c / surface->ny) + (a + 0.5) / SIDE;
-                size_t row = 2 * (c % surface->ny);
-                double inner = free_surface_y(surface, xi, row);
-                double outer = free_surface_y(surface, xi, row + 2);
-                line[n][0] = surface->x0 - surface->dx * xi;
-                line[n][1] = inner + (outer - inner) * (b + 0.5) / SIDE;
-                line[n][2] = solution->excess[c] / (SIDE * SIDE);
-                line[n++][3] = 0.0;
-            }
-    igabem_status status = sources_append(sources, 0, NULL, n, (const double(*)[4])line);
-    free(line);
-    return status;
-}
-
 igabem_status radiation_sources(const igabem_solution *solution, enum radiation_cutoff cutoff,
                                 double t_max, size_t cuts, const double *cut,
                                 struct sources **sources)
@@ -137,8 +110,11 @@ igabem_status radiation_sources(const igabem_solution *solution, enum radiation_
     place_sources(solution->formulation, solution->speed, *sources);
     if (solution->transom)
         status = add_face(solution, *sources);
-    if (!status && solution->excess)
-        status = add_cells(solution, *sources);
+    if (!status && solution->cell_source)
+        status = sources_append(*sources,
+                                solution->surface->nx * solution->surface->ny * BASE_FLOW_SIDE *
+                                    BASE_FLOW_SIDE,
+                                (const double(*)[7])solution->cell_source, 0, NULL);
     if (status)
         sources_free(*sources);
     return status;

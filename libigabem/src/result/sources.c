@@ -166,7 +166,8 @@ static igabem_status fill_line(const igabem_solution *solution, const struct nod
             continue;
         double flux = k0 > 0 ? sources->line_nu_x[i] * sources->line_length[i] / k0 : 0.0;
         sources->line_dipole[i] *= flux;
-        sources->line_strength[i] = -flux * sources->line_velocity[0][i];
+        /* With the cells of a double model phi_x has left the waterline (theory.md, 14). */
+        sources->line_strength[i] = solution->base ? 0.0 : -flux * sources->line_velocity[0][i];
     }
     free(measure);
     return IGABEM_OK;

@@ -148,13 +148,15 @@ static igabem_status keep_surface(const struct influence *influence, igabem_solu
 /* The flow about which the surface was linearised, and what its cells radiate. */
 static igabem_status keep_base(const struct exterior_system *system, igabem_solution *solution)
 {
+    size_t parts = BASE_FLOW_SIDE * BASE_FLOW_SIDE * system->cells;
     solution->base = malloc(system->cells * sizeof *solution->base);
-    solution->excess = malloc(system->cells * sizeof *solution->excess);
-    if (!solution->base || !solution->excess)
+    solution->cell_source = malloc(parts * sizeof *solution->cell_source);
+    if (!solution->base || !solution->cell_source)
         return solution_no_memory(system->cells);
     memcpy(solution->base, system->base, system->cells * sizeof *solution->base);
-    return base_flow_excess(solution->surface, solution->base, &system->second,
-                            solution->surface_phi, solution->speed, solution->k0, solution->excess);
+    base_flow_radiate(solution->surface, solution->base, solution->surface_phi, solution->speed,
+                      solution->k0, solution->cell_source);
+    return IGABEM_OK;
 }
 
 static igabem_status solve_one(const struct influence *influence,

@@ -17,7 +17,7 @@ struct igabem_solution {
     struct free_surface *surface; /* of a potential: where it was solved; NULL: none */
     double *surface_phi;          /* its coefficients there, then those of the hull's edge */
     struct base_point *base;      /* of each cell of a double model; else NULL */
-    double *excess;               /* what the cell radiates then, m^3/s */
+    double (*cell_source)[7];     /* what it radiates then, of base_flow_radiate() */
     struct transom *transom;      /* strip and face of a dry one; NULL: none */
     double *strip_phi;            /* coefficients, the rim's phi and its slope */
     double *system;               /* [n][3][n] as assemble_turn() leaves it; NULL: not kept */
