@@ -1,6 +1,6 @@
 /* The potential on hull and free surface beside exact values, the Kelvin solver and itself.
- * Usage: igabem_bench_exterior spheroid | wigley | code | HULL.json... (no argument: the first
- * three) */
+ * Usage: igabem_bench_exterior spheroid | wigley | code | double-model | HULL.json... (no argument:
+ * the first three; double-model: for the hulls named after it) */
 #include <igabem/igabem.h>
 #include <nurbs/nurbs.h>
 
@@ -10,12 +10,13 @@
 #include <string.h>
 
 enum { MOST_SPEEDS = 8 };
+static igabem_formulation settings_of = IGABEM_FORMULATION_EXTERIOR;
 
 static igabem_options exterior(double cells)
 {
     igabem_options options;
     igabem_options_init(&options);
-    options.formulation = IGABEM_FORMULATION_EXTERIOR;
+    options.formulation = settings_of;
     options.surface_cells = cells;
     return options;
 }
@@ -196,6 +197,7 @@ static void settings(const char *path)
     } row[] = {{"32 cells", 32, 0.5, 1, 6, 0.7, 0.6},
                {"40 cells", 40, 0.5, 1, 6, 0.7, 0.6},
                {"56 cells", 56, 0.5, 1, 6, 0.7, 0.6},
+               {"80 cells", 80, 0.5, 1, 6, 0.7, 0.6},
                {"40, first row times 0.7", 40, 0.35, 1, 6, 0.7, 0.6},
                {"40, first row times 1.4", 40, 0.7, 1, 6, 0.7, 0.6},
                {"40, half the damping", 40, 0.5, 0.5, 6, 0.7, 0.6},
@@ -210,7 +212,8 @@ static void settings(const char *path)
         nurbs_hull_free(source);
         return;
     }
-    printf("\n%s: C_w x 1000 by Kochin function; by momentum\n\n| setting |", path);
+    printf("\n%s, %s: C_w x 1000 by Kochin function; by momentum\n\n| setting |", path,
+           igabem_formulation_name(settings_of));
     for (int k = 0; k < 3; k++)
         printf(" Fr %.2f |", froude[k]);
     printf(" seconds a speed |\n");
@@ -243,6 +246,8 @@ int main(int argc, char **argv)
             wigleys();
         else if (strcmp(argv[k], "code") == 0)
             another_code();
+        else if (igabem_formulation_parse(argv[k], &settings_of))
+            continue;
         else
             settings(argv[k]);
     }
