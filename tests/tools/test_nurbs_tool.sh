@@ -242,6 +242,14 @@ expect 0 "$nurbs" info kilometres.json
 grep -q "nurbs clean --scale 0.001" stdout || fail "info names no remedy"
 expect 0 "$nurbs" clean kilometres.json ship.json --scale 0.001 --shift 1,0,0 --lpp 1.25
 
+# Hulls written by FreeCAD: what Open CASCADE's mass properties give below the water.
+while IFS=, read -r file volume area; do
+    case $file in \#* | file) continue ;; esac
+    expect 0 "$nurbs" hydrostatics "$source/tests/data/$file" --json
+    close volume "$volume" 1e-4
+    close wetted_area "$area" 1e-3
+done <"$source/tests/data/freecad_hulls.csv"
+
 # Patches: shared edges, orientation, exact changes; all of them leave the volume alone.
 expect 0 "$nurbs" edit wigley.json split:u:0.4 -o halves.json
 expect 0 "$nurbs" edit halves.json reverse:v -o turned.json

@@ -53,7 +53,7 @@ NURBS_API void nurbs_topology_free(nurbs_topology *topology);
 
 /** Makes the orientation of joined patches one: fills sign[edges/4] (-1: to be turned; the first
  * patch of each connected part keeps its own) and part[edges/4], the number of the connected part
- * that holds a patch, from 0 to *parts - 1. Joints that take less than 2 % of either edge do not
+ * that holds a patch, from 0 to *parts - 1. Joints that take less than 5 % of either edge do not
  * count: edges that part at a small angle from a common corner.
  * Error: NURBS_ERROR_GEOMETRY if that is impossible (a Moebius strip), naming patches and place. */
 NURBS_API nurbs_status nurbs_topology_orient(const nurbs_topology *topology, int *sign,

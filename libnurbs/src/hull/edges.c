@@ -13,6 +13,7 @@ enum { SAMPLES = 65, PROBES = 5 };
 /* Relative to the extent, as the solver has them. */
 static const double join = 1e-4, stern_reach = 0.05, centre_reach = 1e-5;
 static const double short_edge = 20; /* times the joining distance: shorter ones cannot be joined */
+static const double minor = 0.05;    /* of the shorter edge, as nurbs_topology_orient() */
 static const double slack = 2e-3;    /* of an edge's range, where a joint ends */
 
 typedef struct search {
@@ -42,13 +43,22 @@ static nurbs_status sample_edge(const search *s, size_t e, double t[SAMPLES],
     return nurbs_surface_eval(surface, 0, SAMPLES, uv[0], points[0]);
 }
 
-/* How many other edges run along edge e at t; *other is one of them. `reach` widens each stretch.
- */
+/* Edges that part at a small angle, the sides of a narrow face, run together for a while. */
+static bool is_minor(const nurbs_topology *topology, const nurbs_joint *joint)
+{
+    return joint->length < minor * fmin(topology->edge[joint->edge[0]].length,
+                                        topology->edge[joint->edge[1]].length);
+}
+
+/* How many other edges run along edge e at t; *other is one of them. `reach` widens each stretch;
+ * below zero, minor ones do not count. */
 static size_t joined_at(const search *s, size_t e, double t, double reach, size_t other[2])
 {
     size_t count = 0;
     for (size_t k = 0; k < s->topology->joints; k++) {
         const nurbs_joint *j = &s->topology->joint[k];
+        if (reach < 0 && is_minor(s->topology, j))
+            continue;
         for (int side = 0; side < 2; side++)
             if (j->edge[side] == e && t >= fmin(j->from[side], j->to[side]) - reach &&
                 t <= fmax(j->from[side], j->to[side]) + reach) {

@@ -2,6 +2,7 @@
  * run from side to side the port half is taken. */
 #include "core/error.h"
 #include "hull/hull.h"
+#include "integrals/quadrature.h"
 
 #include <nurbs/integrals.h>
 #include <nurbs/modify.h>
@@ -12,10 +13,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { FLAT_ORDER = 6 };
+
 static const double mirror[9] = {1, 0, 0, 0, -1, 0, 0, 0, 1};
 
 /* A surface with less than this on one side, over its reach on the other, lies on one side. */
 static const double one_sided = 0.05;
+static const double flat_share = 1 - 1e-6; /* |Int n dS| over the area of a plate */
 static const double symmetry = 1e-3; /* of area and breadth, else the sides are not mirror images */
 
 static bool runs_across(const hull_box *box, double clearance)
@@ -84,9 +88,44 @@ static nurbs_status centre_line(const nurbs_surface *surface, int direction, dou
     return status;
 }
 
-/* The part of a surface to port of the parameter line in the centre plane, exactly. */
-static nurbs_status port_side(const nurbs_hull *hull, const nurbs_surface *surface,
-                              nurbs_patches *port)
+static nurbs_status is_flat(const nurbs_surface *surface, bool *yes)
+{
+    patch_sums sums;
+    nurbs_status status = patch_integrate(surface, 0, FLAT_ORDER, &sums);
+    const double *n = sums.normal;
+    *yes = !status && sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) > flat_share * sums.area;
+    return status;
+}
+
+/* The part to port of a flat patch, a bottom or stem plate, without a parameter line in the centre
+ * plane: with y for a height, cut as at the water. */
+static nurbs_status cut_port_side(nurbs_hull *hull, const nurbs_surface *surface,
+                                  nurbs_patches *port)
+{
+    static const double over[9] = {1, 0, 0, 0, 0, 1, 0, -1, 0},
+                        back[9] = {1, 0, 0, 0, 0, -1, 0, 1, 0};
+    nurbs_surface *turned = NULL;
+    nurbs_patches *below = NULL;
+    nurbs_status status = nurbs_surface_transform(surface, over, NULL, &turned);
+    if (!status)
+        status = nurbs_patches_create(&below);
+    if (!status)
+        status =
+            hull_cut_patch(turned, 0, hull->extent, hull->options.cut, below, &hull->deviation);
+    for (size_t k = 0; k < nurbs_patches_count(below) && !status; k++) {
+        nurbs_surface *part = NULL;
+        status = nurbs_surface_transform(nurbs_patches_get(below, k), back, NULL, &part);
+        if (!status)
+            status = nurbs_patches_add(port, part);
+        nurbs_surface_free(part);
+    }
+    nurbs_surface_free(turned);
+    nurbs_patches_free(below);
+    return status;
+}
+
+/* The part of a surface to port of the centre plane; exactly if a parameter line lies there. */
+static nurbs_status port_side(nurbs_hull *hull, const nurbs_surface *surface, nurbs_patches *port)
 {
     for (int d = 0; d < 2; d++) {
         const double *t = nurbs_surface_knots(surface, d);
@@ -109,6 +148,10 @@ static nurbs_status port_side(const nurbs_hull *hull, const nurbs_surface *surfa
         nurbs_surface_free(part);
         return status;
     }
+    bool plate = false;
+    nurbs_status status = is_flat(surface, &plate);
+    if (status || plate)
+        return status ? status : cut_port_side(hull, surface, port);
     return nurbs_fail(
         NURBS_ERROR_GEOMETRY,
         "it runs across the centre plane, and none of its parameter lines lies there: "
@@ -159,7 +202,7 @@ static nurbs_status check_symmetry(const double area[3], double half)
 }
 
 /* Adds the port half of what runs across, and its area. */
-static nurbs_status add_port_side(const nurbs_hull *hull, const nurbs_surface *surface,
+static nurbs_status add_port_side(nurbs_hull *hull, const nurbs_surface *surface,
                                   nurbs_patches *port, double *half)
 {
     size_t first = nurbs_patches_count(port);

@@ -60,7 +60,11 @@ nurbs_status hull_leave_out_covers(nurbs_hull *hull);
 /* Mirrors a starboard half, takes the port half of surfaces across the centre plane. */
 nurbs_status hull_take_half(nurbs_hull *hull);
 
-/* Adds what of a surface lies below the level to a set. */
+/* Adds what of a surface lies below the level to a set, in one piece or in strips. */
+nurbs_status hull_cut_patch(const nurbs_surface *patch, double level, double extent,
+                            double tolerance, nurbs_patches *below, double *deviation);
+
+/* The same in strips of sections that lie below, above or cross once. */
 nurbs_status hull_cut_strips(const nurbs_surface *surface, double level, double extent,
                              double tolerance, nurbs_patches *below, double *deviation);
 

@@ -19,8 +19,8 @@ static const double simplify_cut = 1e-4; /* of the extent, where nothing else is
 
 /* The part below the level, in one piece along u, or along v where the lines of constant u do not
  * cross the level, or in strips. The message names the patch's own parameters. */
-static nurbs_status cut_patch(const nurbs_surface *patch, double level, double extent,
-                              double tolerance, nurbs_patches *below, double *deviation)
+nurbs_status hull_cut_patch(const nurbs_surface *patch, double level, double extent,
+                            double tolerance, nurbs_patches *below, double *deviation)
 {
     nurbs_surface *swapped = NULL, *wetted = NULL;
     nurbs_patches *parts = NULL;
@@ -152,9 +152,9 @@ static nurbs_status wet_patch(nurbs_hull *hull, const nurbs_surface *patch, doub
         status = lift(hull, patch, &box, &lifted, &lifted_by);
     const nurbs_surface *sound = lifted ? lifted : patch;
     if (!status)
-        status =
-            *cut ? cut_patch(sound, level, hull->extent, hull->options.cut, below, &hull->deviation)
-                 : nurbs_patches_add(below, sound);
+        status = *cut ? hull_cut_patch(sound, level, hull->extent, hull->options.cut, below,
+                                       &hull->deviation)
+                      : nurbs_patches_add(below, sound);
     const double shift[3] = {0.0, 0.0, -level};
     for (size_t k = 0; !status && k < nurbs_patches_count(below); k++) {
         nurbs_surface *settled = NULL, *moved = NULL;

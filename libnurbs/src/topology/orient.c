@@ -108,7 +108,7 @@ nurbs_status nurbs_patches_mirror(const nurbs_patches *patches, int axis, nurbs_
 /* Edges that meet in a corner at a small angle run within the tolerance for a little while. */
 static int is_short(const nurbs_topology *topology, const nurbs_joint *joint)
 {
-    const double share = 0.02;
+    const double share = 0.05;
     const nurbs_edge *a = &topology->edge[joint->edge[0]], *b = &topology->edge[joint->edge[1]];
     return joint->length < share * fmin(a->length, b->length);
 }
