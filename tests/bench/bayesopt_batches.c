@@ -1,5 +1,6 @@
 /* What evaluating in batches costs: regret after an initial design and 60 proposals, one by one and
- * in batches of 10, and how close the points of a batch of 20 lie. Prints Markdown tables.
+ * in batches of 10, medians and quartiles, and how close the points of a batch of 20 lie. Prints a
+ * Markdown table, of the eight functions or of those named.
  *
  *     bayesopt_batches [SEEDS] [FUNCTION]...
  */
@@ -85,6 +86,12 @@ static double median(double *values, size_t n)
     return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
 }
 
+static void print_spread(size_t n, double *values)
+{
+    qsort(values, n, sizeof *values, compare);
+    printf(" %.3g [%.2g, %.2g] |", median(values, n), values[n / 4], values[n - 1 - n / 4]);
+}
+
 static void measure(const struct test_function *f, size_t seeds)
 {
     static double single[MOST_SEEDS], batch[MOST_SEEDS], least[MOST_SEEDS], middle[MOST_SEEDS];
@@ -96,9 +103,11 @@ static void measure(const struct test_function *f, size_t seeds)
         least[s] = nearest[0];
         middle[s] = nearest[LARGE / 2];
     }
-    double one = median(single, seeds), ten = median(batch, seeds);
-    printf("| %s (%zu, %zu + %d) | %.3g | %.3g | %.2g | %.2g | %.2g |\n", f->name, f->d, f->n_init,
-           PROPOSALS, one, ten, ten / one, median(least, seeds), median(middle, seeds));
+    printf("| %s (%zu, %zu + %d) |", f->name, f->d, f->n_init, PROPOSALS);
+    print_spread(seeds, single);
+    print_spread(seeds, batch);
+    printf(" %.2g | %.2g | %.2g |\n", median(batch, seeds) / median(single, seeds),
+           median(least, seeds), median(middle, seeds));
     fflush(stdout);
 }
 
@@ -120,5 +129,8 @@ int main(int argc, char **argv)
     for (size_t i = 0; i < n_test_functions; i++)
         if (wanted(test_functions[i].name, argc, argv))
             measure(&test_functions[i], seeds);
+    for (size_t i = 0; i < n_held_out_functions && argc > 2; i++) /* where they are named */
+        if (wanted(held_out_functions[i].name, argc, argv))
+            measure(&held_out_functions[i], seeds);
     return EXIT_SUCCESS;
 }
