@@ -57,6 +57,10 @@ static void make_body(nurbs_surface *surface, nurbs_surface *second, igabem_form
     body->options.formulation = formulation;
     body->options.tolerance = tolerance;
     body->options.refine = 1;
+    if (nurbs_surface_weights(surface)) { /* a rational shape under a density of its own */
+        body->options.elements_u = 5;
+        body->options.elements_v = 3;
+    }
     body->options.spectrum_limit = 5.0; /* shorter waves would want shorter steps */
     CU_ASSERT_EQUAL_FATAL(igabem_options_freeze(body->hull, &body->options), IGABEM_OK);
     fill_moves(body);
@@ -390,7 +394,7 @@ static void kept_system(void)
 static void remainders(void)
 {
     remainder_of(wigley_surface(0.1, 0.0625, 4, 2), IGABEM_FORMULATION_HOGNER);
-    remainder_of(wigley_surface(0.1, 0.0625, 3, 2), IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN);
+    remainder_of(cut_hull(3, 2), IGABEM_FORMULATION_NEUMANN_KELVIN_STERN);
 }
 
 static void sums(void)

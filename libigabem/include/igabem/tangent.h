@@ -40,6 +40,7 @@ typedef struct igabem_tangent igabem_tangent;
  *                 move alike
  * @param[out] tangent created, to be given to igabem_tangent_free()
  *
+ * Tells no progress. Threads: options.threads of the solution, in later calls too.
  * Errors: IGABEM_ERROR_ARGUMENT: a formulation without tangents, a hull given whole, another hull
  * than that of the solution, a move that is no number or not allowed. */
 IGABEM_API igabem_status igabem_tangent_create(const igabem_hull *hull,

@@ -15,9 +15,9 @@ struct reflection {
 
 static const struct reflection reflections[4] = {{1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
 
-/* Adds factor (P - Q)/(4 pi r^3), its components multiplied by the reflection, to k[3][stride], and
- * its derivative with respect to y of the place P to slope. Returns nothing else: with the point
- * itself P moves by the reflection's y, for which turned holds that multiple. */
+/* Adds factor (P - Q)/(4 pi r^3), its components multiplied by the reflection, to k[3][n], its
+ * derivative with respect to y of the place P to slope, and with respect to y of the point, which
+ * the reflection turns round, to turned. */
 VECTOR_MULTIVERSION
 static void kernel(const double p[3], const struct reflection *reflection, double factor, size_t n,
                    const double *x, const double *y, const double *z, double *restrict k,

@@ -43,7 +43,14 @@ static igabem_status kochin(const igabem_tangent *tangent, double largest, size_
         free(one);
     }
     radiators_free(radiators);
-    return failed ? tangent_no_memory(n) : IGABEM_OK;
+    if (failed)
+        return tangent_no_memory(n);
+    for (size_t k = 0; k < n * m; k++)
+        if (!isfinite(dh[k][0]) || !isfinite(dh[k][1]))
+            return igabem_fail(IGABEM_ERROR_NUMERIC,
+                               "the Kochin function's derivative along field %zu is not finite",
+                               k / m);
+    return IGABEM_OK;
 }
 
 igabem_status igabem_tangent_kochin(const igabem_tangent *tangent, size_t m, const double *t,
