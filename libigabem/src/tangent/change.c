@@ -23,11 +23,8 @@ void rules_free(struct rules *rules)
 {
     if (!rules)
         return;
-    for (size_t k = 0; k < rules->n; k++) {
-        nodes_free(&rules->rule[k].nodes);
-        moving_free(&rules->rule[k].moving);
-        free(rules->rule[k].change);
-    }
+    for (size_t k = 0; k < rules->n; k++)
+        free(rules->rule[k].x);
     free(rules->rule);
     free(rules);
 }
@@ -38,40 +35,64 @@ struct rule *rules_of(const struct rules *rules, size_t panel, const int class[2
     return &rules->rule[k * REGULAR_CLASSES + (size_t) class[1]];
 }
 
-static bool fill(const struct change *change, struct rule *rule)
+/* What filling takes, one of a thread. */
+struct filler {
+    struct nodes nodes;
+    struct moving moving;
+    double *change; /* [2][fields] */
+};
+
+static bool fill(const struct change *change, size_t k, struct filler *filler, struct rule *rule)
 {
     const struct field *field = change->tangent->field;
-    const struct nodes *nodes = &rule->nodes;
-    double *one = malloc(2 * field->n * sizeof *one);
-    rule->change = calloc(2 * nodes->n * field->width + 1, sizeof *rule->change);
-    rule->filled = one && rule->change &&
-                   moving_fill(change->tangent, change->bernstein, nodes, &rule->moving);
-    for (size_t b = 0; b < nodes->blocks && rule->filled; b++)
+    const struct nodes *nodes = &filler->nodes;
+    const int class[2] = {(int)(k / REGULAR_CLASSES % REGULAR_CLASSES), (int)(k % REGULAR_CLASSES)};
+    nodes_clear(&filler->nodes);
+    regular_nodes(change->influence, k / (REGULAR_CLASSES * REGULAR_CLASSES), class,
+                  &filler->nodes);
+    size_t n = nodes->n, width = field->width;
+    if (!moving_fill(change->tangent, change->bernstein, nodes, &filler->moving))
+        return false;
+    rule->x = calloc(n * (4 + 2 * width), sizeof *rule->x);
+    if (!rule->x)
+        return false;
+    rule->n = n;
+    rule->y = rule->x + n;
+    rule->z = rule->x + 2 * n;
+    rule->strength = rule->x + 3 * n;
+    rule->change = rule->x + 4 * n;
+    memcpy(rule->x, nodes->x, n * sizeof *rule->x);
+    memcpy(rule->y, nodes->y, n * sizeof *rule->x);
+    memcpy(rule->z, nodes->z, n * sizeof *rule->x);
+    memcpy(rule->strength, filler->moving.strength, n * sizeof *rule->x);
+    for (size_t b = 0; b < nodes->blocks; b++)
         for (size_t i = nodes->block[b].begin; i < nodes->block[b].end; i++) {
-            double *to = rule->change + 2 * i * field->width;
-            moving_changes(field, nodes, &rule->moving, nodes->block[b].element, i, one);
-            memcpy(to, one, field->n * sizeof *to);
-            memcpy(to + field->width, one + field->n, field->n * sizeof *to);
+            double *to = rule->change + 2 * i * width;
+            moving_changes(field, nodes, &filler->moving, nodes->block[b].element, i,
+                           filler->change);
+            memcpy(to, filler->change, field->n * sizeof *to);
+            memcpy(to + width, filler->change + field->n, field->n * sizeof *to);
         }
-    free(one);
-    return rule->filled;
+    return true;
 }
 
 bool rules_fill(const struct change *change, struct rules *rules)
 {
     const struct influence *influence = change->influence;
     bool failed = false;
-#pragma omp parallel for num_threads(influence->threads) schedule(dynamic, 16) reduction(| : failed)
-    for (size_t k = 0; k < rules->n; k++) {
-        const int class[2] = {(int)(k / REGULAR_CLASSES % REGULAR_CLASSES),
-                              (int)(k % REGULAR_CLASSES)};
-        struct rule *rule = &rules->rule[k];
-        if (!rule->used || rule->filled)
-            continue;
-        nodes_init(&rule->nodes, influence->mesh);
-        rule->nodes.with_jets = true;
-        regular_nodes(influence, k / (REGULAR_CLASSES * REGULAR_CLASSES), class, &rule->nodes);
-        failed |= !fill(change, rule);
+#pragma omp parallel num_threads(influence->threads) reduction(| : failed)
+    {
+        struct filler filler = {.change = malloc(2 * change->tangent->field->n * sizeof(double))};
+        nodes_init(&filler.nodes, influence->mesh);
+        filler.nodes.with_jets = true;
+        failed |= !filler.change;
+#pragma omp for schedule(dynamic, 16)
+        for (size_t k = 0; k < rules->n; k++)
+            if (!failed && rules->rule[k].used && !rules->rule[k].x)
+                failed |= !fill(change, k, &filler, &rules->rule[k]);
+        nodes_free(&filler.nodes);
+        moving_free(&filler.moving);
+        free(filler.change);
     }
     return !failed;
 }
@@ -145,5 +166,5 @@ void kernels_sum_rule(const struct kernels *kernels, const struct field *field,
             for (size_t l = 0; l < fields; l++)
                 out[c * field->n + first + l] += sum[c][l];
     }
-    add_turn(kernels, rule->moving.strength, turn);
+    add_turn(kernels, rule->strength, turn);
 }

@@ -9,10 +9,11 @@
 /* The regular rules of the panels as moving nodes, filled where they are in use. They are shared by
  * points and have few nodes, which keep their changes along the fields for themselves. */
 struct rule {
-    bool used, filled;
-    struct nodes nodes;
-    struct moving moving;
-    double *change; /* [nodes][2][width]: of the strength; the strength times the move */
+    bool used;
+    size_t n;
+    double *x, *y, *z; /* owned as one; NULL: not filled */
+    double *strength;
+    double *change; /* [n][2][width]: of the strength; the strength times the move */
 };
 
 struct rules {

@@ -28,11 +28,10 @@ static void image_of(const struct density *density, size_t point, int i, double 
 }
 
 /* Adds the kernels of one image at the nodes. */
-static bool add_kernels(double k0, double weight, const double image[3], int i,
-                        const struct nodes *nodes, struct local_work *work)
+static bool add_kernels(double k0, double weight, const double image[3], int i, size_t n,
+                        const double *x, const double *y, const double *z, struct local_work *work)
 {
     enum { COLUMNS = 9 };
-    size_t n = nodes->n;
     if (n > work->capacity) {
         free(work->batch);
         work->capacity = n + n / 2;
@@ -44,9 +43,9 @@ static bool add_kernels(double k0, double weight, const double image[3], int i,
     }
     double *X = work->batch, *Y = X + n, *Z = Y + n, *gradient = Z + n, *slope = gradient + 3 * n;
     for (size_t k = 0; k < n; k++) {
-        X[k] = k0 * (image[0] - nodes->x[k]);
-        Y[k] = k0 * (image[1] - nodes->y[k]);
-        Z[k] = k0 * (nodes->z[k] - image[2]);
+        X[k] = k0 * (image[0] - x[k]);
+        Y[k] = k0 * (image[1] - y[k]);
+        Z[k] = k0 * (z[k] - image[2]);
     }
     if (kelvin_local_slope(n, X, Y, Z, gradient, slope) != IGABEM_OK)
         return false;
@@ -60,6 +59,13 @@ static bool add_kernels(double k0, double weight, const double image[3], int i,
         }
     }
     return true;
+}
+
+static bool add_own(double k0, double weight, const double image[3], int i, struct local_work *work)
+{
+    const struct nodes *nodes = &work->nodes;
+    return kernels_clear(&work->kernels, nodes->n) &&
+           add_kernels(k0, weight, image, i, nodes->n, nodes->x, nodes->y, nodes->z, work);
 }
 
 /* The rule by which every image sees a panel from afar; NONE: there is none. */
@@ -109,11 +115,11 @@ static bool surface_change(const struct change *change, double weight, const int
         if (class[p][0] == NONE)
             continue;
         const struct rule *far = rules_of(change->rules, p, class[p]);
-        if (!kernels_clear(&work->kernels, far->nodes.n))
+        if (!kernels_clear(&work->kernels, far->n))
             return false;
         for (int i = 0; i < IMAGES; i++) {
             image_of(influence->density, point, i, image);
-            if (!add_kernels(k0, weight, image, i, &far->nodes, work))
+            if (!add_kernels(k0, weight, image, i, far->n, far->x, far->y, far->z, work))
                 return false;
         }
         kernels_sum_rule(&work->kernels, field, far, out, turn);
@@ -125,8 +131,7 @@ static bool surface_change(const struct change *change, double weight, const int
             if (class[p][0] == NONE)
                 panel_nodes(influence, &rule, p, &work->nodes);
         if (!moving_fill(change->tangent, change->bernstein, &work->nodes, &work->moving) ||
-            !kernels_clear(&work->kernels, work->nodes.n) ||
-            !add_kernels(k0, weight, rule.point, i, &work->nodes, work))
+            !add_own(k0, weight, rule.point, i, work))
             return false;
         kernels_sum(&work->kernels, field, &work->nodes, &work->moving, out, turn);
     }
@@ -152,8 +157,7 @@ static bool line_part(const struct change *change, const struct line *line, doub
                     line_near(line, segment, stops + k, &rule, &work->nodes);
             if (!moving_fill_line(change->tangent, change->bernstein, line, segment, 1.0 / k0,
                                   &work->nodes, &work->moving) ||
-                !kernels_clear(&work->kernels, work->nodes.n) ||
-                !add_kernels(k0, weight, rule.point, i, &work->nodes, work))
+                !add_own(k0, weight, rule.point, i, work))
                 return false;
             kernels_sum(&work->kernels, change->tangent->field, &work->nodes, &work->moving, out,
                         turn);

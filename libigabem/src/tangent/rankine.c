@@ -106,16 +106,15 @@ static bool far_part(const struct change *change, const double *image, struct ru
         if (!views[p].images)
             continue;
         const struct rule *rule = rules_of(rules, p, views[p].class);
-        const struct nodes *nodes = &rule->nodes;
-        if (!kernels_clear(&work->kernels, nodes->n))
+        if (!kernels_clear(&work->kernels, rule->n))
             return false;
         for (int i = 0; i < images; i++) {
             double factor = image_factor(image, point, i), at[3];
             if (!(views[p].images >> i & 1u) || factor == 0.0)
                 continue;
             reflect(influence->density->point + 3 * point, i, at);
-            kernel(at, &reflections[i], factor, nodes->n, nodes->x, nodes->y, nodes->z,
-                   work->kernels.k, work->kernels.slope, work->kernels.turned);
+            kernel(at, &reflections[i], factor, rule->n, rule->x, rule->y, rule->z, work->kernels.k,
+                   work->kernels.slope, work->kernels.turned);
         }
         kernels_sum_rule(&work->kernels, change->tangent->field, rule, out, turn);
     }
