@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BLOCK = 128 };             /* sources whose waves are kept at a time */
+enum { BLOCK = 64 };              /* sources whose waves are kept at a time */
 static const double DECAY = 40.0; /* sources beyond e^-40 are left out */
 
 static igabem_status no_memory(void)
@@ -332,32 +332,35 @@ static double dot(size_t n, const double *restrict p, const double *restrict q)
     return sum;
 }
 
-static void add_carriers(const struct carriers *carriers, size_t fields, double a, double b,
-                         double k, double h[2], double (*dh)[2])
+/* The waves of one angle at a block of carriers. */
+static void add_block(const struct carriers *carriers, size_t begin, size_t fields, double k0,
+                      double t, double h[2], double (*dh)[2])
 {
-    double wave[4][BLOCK];
-    for (size_t begin = 0; begin < carriers->n; begin += BLOCK) {
-        size_t n = carriers->n - begin < BLOCK ? carriers->n - begin : BLOCK;
-        if (carriers->z && -a * carriers->z[begin] > DECAY)
-            break;
-        block_waves(a, b, k, n, carriers->x + begin, carriers->y + begin,
-                    carriers->z ? carriers->z + begin : NULL, wave);
-        for (size_t c = 0; c < 2; c++)
-            h[c] += dot(n, wave[c], carriers->strength + begin);
-        for (size_t first = 0; first < fields; first += FIELDS_AT_ONCE) {
-            size_t count = fields - first < FIELDS_AT_ONCE ? fields - first : FIELDS_AT_ONCE;
-            add_changes(n, fields, count, wave, carriers->change + 2 * fields * begin + first,
-                        dh + first);
-        }
+    double wave[4][BLOCK], a = k0 * (1.0 + t * t), k = k0 * sqrt(1.0 + t * t);
+    size_t n = carriers->n - begin < BLOCK ? carriers->n - begin : BLOCK;
+    if (carriers->z && -a * carriers->z[begin] > DECAY)
+        return;
+    block_waves(a, k * t, k, n, carriers->x + begin, carriers->y + begin,
+                carriers->z ? carriers->z + begin : NULL, wave);
+    for (size_t c = 0; c < 2; c++)
+        h[c] += dot(n, wave[c], carriers->strength + begin);
+    for (size_t first = 0; first < fields; first += FIELDS_AT_ONCE) {
+        size_t count = fields - first < FIELDS_AT_ONCE ? fields - first : FIELDS_AT_ONCE;
+        add_changes(n, fields, count, wave, carriers->change + 2 * fields * begin + first,
+                    dh + first);
     }
 }
 
-void radiators_sum(const struct radiators *radiators, double k0, double t, double h[2],
-                   double (*dh)[2])
+/* Block by block, so that the changes of one stay near while all angles pass. */
+void radiators_sum(const struct radiators *radiators, double k0, size_t m, const double *t,
+                   double (*h)[2], double (*dh)[2])
 {
-    double a = k0 * (1.0 + t * t), k = k0 * sqrt(1.0 + t * t), b = k * t;
-    h[0] = h[1] = 0.0;
-    memset(dh, 0, radiators->fields * sizeof *dh);
-    add_carriers(&radiators->surface, radiators->fields, a, b, k, h, dh);
-    add_carriers(&radiators->line, radiators->fields, a, b, k, h, dh);
+    const struct carriers *const kinds[2] = {&radiators->surface, &radiators->line};
+    size_t fields = radiators->fields;
+    memset(h, 0, m * sizeof *h);
+    memset(dh, 0, m * fields * sizeof *dh);
+    for (int k = 0; k < 2; k++)
+        for (size_t begin = 0; begin < kinds[k]->n; begin += BLOCK)
+            for (size_t i = 0; i < m; i++)
+                add_block(kinds[k], begin, fields, k0, t[i], h[i], dh + i * fields);
 }

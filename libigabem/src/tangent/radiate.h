@@ -23,8 +23,11 @@ igabem_status radiators_create(const igabem_tangent *tangent, double t_max,
                                struct radiators **radiators);
 void radiators_free(struct radiators *radiators);
 
-/* The Kochin function h at wave angle t, and its derivatives: fills dh[fields][2]. */
-void radiators_sum(const struct radiators *radiators, double k0, double t, double h[2],
-                   double (*dh)[2]);
+enum { ANGLES_AT_ONCE = 8 };
+
+/* The Kochin function at m <= ANGLES_AT_ONCE wave angles t, and its derivatives: fills h[m][2] and
+ * dh[m][fields][2]. */
+void radiators_sum(const struct radiators *radiators, double k0, size_t m, const double *t,
+                   double (*h)[2], double (*dh)[2]);
 
 #endif

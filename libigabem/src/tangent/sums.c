@@ -11,6 +11,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static size_t fields_of(const igabem_tangent *tangent)
 {
@@ -29,16 +30,17 @@ static igabem_status kochin(const igabem_tangent *tangent, double largest, size_
     bool failed = false;
 #pragma omp parallel reduction(| : failed)
     {
-        double(*one)[2] = malloc(n * sizeof *one);
+        double(*one)[2] = malloc(ANGLES_AT_ONCE * n * sizeof *one);
         failed |= !one;
-#pragma omp for schedule(dynamic, 4)
-        for (size_t i = 0; i < m; i++) {
+#pragma omp for schedule(dynamic, 1)
+        for (size_t first = 0; first < m; first += ANGLES_AT_ONCE) {
+            size_t count = m - first < ANGLES_AT_ONCE ? m - first : ANGLES_AT_ONCE;
             if (failed)
                 continue;
-            radiators_sum(radiators, tangent->solution->k0, t[i], h[i], one);
-            for (size_t f = 0; f < n; f++)
-                for (size_t c = 0; c < 2; c++)
-                    dh[f * m + i][c] = one[f][c];
+            radiators_sum(radiators, tangent->solution->k0, count, t + first, h + first, one);
+            for (size_t i = 0; i < count; i++)
+                for (size_t f = 0; f < n; f++)
+                    memcpy(dh[f * m + first + i], one[i * n + f], sizeof *one);
         }
         free(one);
     }
