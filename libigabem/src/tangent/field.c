@@ -274,6 +274,40 @@ void field_at(const struct field *field, const struct element *element, const do
     }
 }
 
+/* Sums over the control values of one block of fields for up to three sets of factors. */
+VECTOR_MULTIVERSION
+static void contract_block(size_t sets, size_t count, size_t width, const double *factor,
+                           const double *net, double sum[3][FIELD_BLOCK])
+{
+    double a[FIELD_BLOCK] = {0}, b[FIELD_BLOCK] = {0}, c[FIELD_BLOCK] = {0};
+    const double *second = factor + (sets > 1 ? count : 0);
+    const double *third = factor + (sets > 2 ? 2 * count : 0);
+    for (size_t k = 0; k < count; k++, net += width)
+        for (size_t l = 0; l < FIELD_BLOCK; l++) {
+            a[l] += factor[k] * net[l];
+            b[l] += second[k] * net[l];
+            c[l] += third[k] * net[l];
+        }
+    memcpy(sum[0], a, sizeof a);
+    memcpy(sum[1], b, sizeof b);
+    memcpy(sum[2], c, sizeof c);
+}
+
+void field_contract(const struct field *field, const struct element *element, size_t sets,
+                    const double *factor, double *out)
+{
+    size_t count = (size_t)(element->degree[0] + 1) * (size_t)(element->degree[1] + 1);
+    const double *net = field_net(field, element);
+    for (size_t first = 0; first < field->n; first += FIELD_BLOCK) {
+        double sum[3][FIELD_BLOCK];
+        size_t fields = field->n - first < FIELD_BLOCK ? field->n - first : FIELD_BLOCK;
+        contract_block(sets, count, field->width, factor, net + first, sum);
+        for (size_t s = 0; s < sets; s++)
+            for (size_t l = 0; l < fields; l++)
+                out[s * field->n + first + l] += sum[s][l];
+    }
+}
+
 void area_change(const double ds[3], const double dt[3], double sign, struct area_change *change)
 {
     const double area[3] = {sign * (ds[1] * dt[2] - ds[2] * dt[1]),

@@ -29,6 +29,11 @@ const double *field_net(const struct field *field, const struct element *element
 void field_at(const struct field *field, const struct element *element, const double local[2],
               double *v);
 
+/* Adds to out[sets][n], sets <= 3, the sums of factor[sets][(pu+1)(pv+1)] over the control values
+ * of an element. */
+void field_contract(const struct field *field, const struct element *element, size_t sets,
+                    const double *factor, double *out);
+
 /* How the area vector turned outwards, its length and its x component change: by along[0] V_s +
  * along[1] V_t. */
 struct area_change {

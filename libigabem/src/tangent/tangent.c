@@ -52,8 +52,38 @@ static void area_nodes(const struct element *element, const struct gauss *gauss,
     cell_nodes(&domain, whole, (const int[]){most, most}, gauss, nodes);
 }
 
+/* What the control values of a field on an element count for in the change of its area. */
+static void area_factors(const struct element *element, const struct gauss *gauss, int points,
+                         const struct nodes *nodes, double *factor)
+{
+    size_t m = (size_t)element->degree[0] + 1, n = (size_t)element->degree[1] + 1;
+    size_t side = (size_t)points; /* the nodes run along the first parameter fastest */
+    memset(factor, 0, m * n * sizeof *factor);
+    for (size_t i = 0; i < nodes->n; i++) {
+        double weight = gauss->weight[points][i % side] * gauss->weight[points][i / side];
+        double bu[ELEMENT_SIDE], du[ELEMENT_SIDE], bv[ELEMENT_SIDE], dv[ELEMENT_SIDE];
+        double local[2], w[3] = {0.0, 0.0, 0.0};
+        struct area_change area;
+        nodes_local(nodes, element, i, local);
+        bernstein(element->degree[0], local[0], bu, du);
+        bernstein(element->degree[1], local[1], bv, dv);
+        for (size_t k = 0; k < m * n; k++) {
+            double net = element->net[4 * k + 3];
+            w[0] += bu[k / n] * bv[k % n] * net;
+            w[1] += du[k / n] * bv[k % n] * net;
+            w[2] += bu[k / n] * dv[k % n] * net;
+        }
+        area_change(nodes->jet + 6 * i, nodes->jet + 6 * i + 3, element->sign, &area);
+        double along = weight * area.length[0] / w[0], across = weight * area.length[1] / w[0];
+        double still = -(along * w[1] + across * w[2]) / w[0];
+        for (size_t k = 0; k < m * n; k++)
+            factor[k] += (still * bu[k / n] + along * du[k / n]) * bv[k % n] +
+                         across * bu[k / n] * dv[k % n];
+    }
+}
+
 /* The wetted area leaves out what closes a transom. */
-static igabem_status area_tangents(igabem_tangent *tangent, double *v)
+static igabem_status area_tangents(igabem_tangent *tangent)
 {
     size_t n = tangent->field->n;
     struct gauss gauss;
@@ -66,23 +96,17 @@ static igabem_status area_tangents(igabem_tangent *tangent, double *v)
         if (tangent->solution->density->patch[element->patch].hull.transom)
             continue;
         int points;
+        double factor[ELEMENT_FUNCTIONS];
         area_nodes(element, &gauss, &nodes, &points);
-        if (nodes.failed)
+        if (nodes.failed) {
             status = tangent_no_memory(n);
-        for (size_t i = 0; i < nodes.n && status == IGABEM_OK; i++) {
-            double local[2];
-            struct area_change area;
-            /* the nodes run along the first parameter fastest */
-            size_t side = (size_t)points;
-            double weight = gauss.weight[points][i % side] * gauss.weight[points][i / side];
-            nodes_local(&nodes, element, i, local);
-            area_change(nodes.jet + 6 * i, nodes.jet + 6 * i + 3, element->sign, &area);
-            field_at(tangent->field, element, local, v);
-            for (size_t f = 0; f < n; f++)
-                tangent->area[f] +=
-                    2.0 * weight * (area.length[0] * v[n + f] + area.length[1] * v[2 * n + f]);
+            continue;
         }
+        area_factors(element, &gauss, points, &nodes, factor);
+        field_contract(tangent->field, element, 1, factor, tangent->area);
     }
+    for (size_t f = 0; f < n; f++)
+        tangent->area[f] *= 2.0;
     nodes_free(&nodes);
     return status;
 }
@@ -141,7 +165,7 @@ static igabem_status fill(const igabem_hull *hull, size_t n, const double *move,
     tangent->normal = malloc(3 * n * unknowns * sizeof *tangent->normal);
     tangent->sigma = malloc(n * unknowns * sizeof *tangent->sigma);
     bool complete = v && tangent->area && tangent->point && tangent->normal && tangent->sigma;
-    status = complete ? area_tangents(tangent, v) : tangent_no_memory(n);
+    status = complete ? area_tangents(tangent) : tangent_no_memory(n);
     if (status == IGABEM_OK) {
         point_tangents(tangent, v);
         status = formulation_solves(&solution->options) ? tangent_solve(tangent)
