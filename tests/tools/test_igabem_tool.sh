@@ -204,6 +204,14 @@ if [ -x "$nurbs" ]; then
     of_surface=$(awk '$1 == "\"cw\":" { gsub(",", "", $2); print $2; exit }' "$work/json")
   done
 fi
+# Hulls written by FreeCAD, with what Open CASCADE says of them.
+while IFS=, read -r file volume area; do
+  case $file in \#* | file) continue ;; esac
+  "$igabem" hydrostatics "$2/tests/data/$file" --json > "$work/json" 2> "$work/err"
+  check "hydrostatics $file" $?
+  expect_value volume "$volume" 1e-4
+  expect_value wetted_area "$area" 1e-3
+done < "$2/tests/data/freecad_hulls.csv"
 # A wedge with freeboard in two patches, the face at the stern with u upright.
 face='{"degree":[1,1],"size":[2,2],"knots":[[0,0,1,1],[0,0,1,1]],
   "points":[[0,0,0.03],[0,0.05,0.03],[0,0,-0.06],[0,0,-0.06]]}'

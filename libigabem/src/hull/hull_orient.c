@@ -12,6 +12,7 @@ enum { ORIENT_GAUSS = 4 };
 static const double JOIN_TOLERANCE = 1e-4; /* of the extent */
 static const double LEAST_VOLUME = 1e-9;   /* of extent times area: less is none */
 static const double SHORT_JOINT = 0.02;    /* of the shorter edge */
+static const double MINOR_JOINT = 0.05;    /* of the shorter edge, as nurbs_topology_orient() */
 
 /* Gauss nodes over all knot spans of one direction. Creates *nodes and *weights. */
 static int span_rule(const struct hull_patch *patch, int direction, size_t points, size_t *n,
@@ -243,6 +244,13 @@ static double overlap(const nurbs_joint *a, int end_a, const nurbs_joint *b, int
     return to - from;
 }
 
+/* Edges that part at a small angle, the sides of a narrow face, run together for a while. */
+static int is_minor(const nurbs_topology *topology, const nurbs_joint *joint)
+{
+    return joint->length < MINOR_JOINT * fmin(topology->edge[joint->edge[0]].length,
+                                              topology->edge[joint->edge[1]].length);
+}
+
 /* An edge belongs to two patches at most; that of a third one, or one in the water plane, comes of
  * patches that overlap. */
 static igabem_status check_edge(const struct igabem_hull *hull, const nurbs_topology *topology,
@@ -262,9 +270,9 @@ static igabem_status check_edge(const struct igabem_hull *hull, const nurbs_topo
                                "patches %zu and %zu share the waterline at (%.6g, %.6g, %.6g): do "
                                "they overlap?",
                                edge->patch, other, joint[j].at[0], joint[j].at[1], joint[j].at[2]);
-        for (size_t k = j + 1; k < joints; k++) {
+        for (size_t k = j + 1; k < joints && !is_minor(topology, &joint[j]); k++) {
             int also = joint[k].edge[1] == e;
-            if (joint[k].edge[also] == e &&
+            if (joint[k].edge[also] == e && !is_minor(topology, &joint[k]) &&
                 overlap(&joint[j], at, &joint[k], also) > SHORT_JOINT * range)
                 return igabem_fail(IGABEM_ERROR_GEOMETRY,
                                    "patches %zu, %zu and %zu share an edge at (%.6g, %.6g, %.6g), "
