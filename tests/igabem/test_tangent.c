@@ -325,6 +325,8 @@ static nurbs_surface *cut_hull(int parts_u, int parts_v)
 
 static const double explicit_most[PARTS] = {1e-9, 3e-9, 1e-9, 1e-9, 0.0};
 static const double solved_most[PARTS] = {1e-7, 1e-7, 1e-7, 1e-9, 1e-6};
+/* A step too short for the quadrature to choose another rule, whatever its tolerance. */
+static const double short_step = 1e-6, short_most[PARTS] = {5e-8, 5e-8, 5e-8, 1e-8, 5e-7};
 
 static void explicit_densities(void)
 {
@@ -338,6 +340,8 @@ static void explicit_densities(void)
 
 static void double_body(void)
 {
+    compare(wigley_surface(0.1, 0.0625, 3, 2), IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN, 1e-5,
+            short_step, short_most);
     compare(wigley_surface(0.1, 0.0625, 3, 2), IGABEM_FORMULATION_DOUBLE_BODY_KOCHIN, 1e-9, 4e-3,
             solved_most);
 }
@@ -348,13 +352,13 @@ static void two_patches(void)
     nurbs_surface *whole = wigley_surface(0.1, 0.0625, 2, 2), *aft = NULL, *fore = NULL;
     CU_ASSERT_EQUAL_FATAL(nurbs_surface_split(whole, 0, 0.5, &aft, &fore), NURBS_OK);
     nurbs_surface_free(whole);
-    compare_patches(aft, fore, IGABEM_FORMULATION_NEUMANN_KELVIN, 1e-8, 2e-3, solved_most);
+    compare_patches(aft, fore, IGABEM_FORMULATION_NEUMANN_KELVIN, 1e-5, short_step, short_most);
 }
 
 /* Rows with and without waves. */
 static void stern_rows(void)
 {
-    compare(cut_hull(3, 2), IGABEM_FORMULATION_NEUMANN_KELVIN_STERN, 3e-9, 2e-3, solved_most);
+    compare(cut_hull(3, 2), IGABEM_FORMULATION_NEUMANN_KELVIN_STERN, 1e-5, short_step, short_most);
 }
 
 #ifdef TANGENT_SLOW
