@@ -198,7 +198,7 @@ nurbs=$(dirname "$igabem")/nurbs
 if [ -x "$nurbs" ]; then
   "$nurbs" convert "$hulls/bulb.json" "$work/bulb.stl"
   for hull in "$hulls/bulb.json" "$work/bulb.stl"; do
-    "$igabem" solve "$hull" --fr 0.35 --elements 20,6 --no-sensitivity --json > "$work/json" 2> "$work/err"
+    "$igabem" solve "$hull" --fr 0.35 --elements 14,5 --no-sensitivity --json > "$work/json" 2> "$work/err"
     check "solve $(basename "$hull")" $?
     [ -n "${of_surface:-}" ] && expect_value cw "$of_surface" 2e-2
     of_surface=$(awk '$1 == "\"cw\":" { gsub(",", "", $2); print $2; exit }' "$work/json")
