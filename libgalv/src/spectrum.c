@@ -187,14 +187,22 @@ static size_t more_pairs(const galv_goal *goal, size_t nev, const double *values
     return least > 2 * (double)nev ? (size_t)fmin(least, 0x1p32) : 2 * nev;
 }
 
+/* Whether so many pairs of a spectrum that falls slowly cost more by Krylov blocks, whose projected
+ * matrices grow by a block to the order 3 nev and are decomposed each time, than all of them. */
+static bool slow_in_blocks(size_t n, size_t nev)
+{
+    double basis = 3 * (double)nev;
+    return pow(basis, 4) > 4 * KRYLOV_BLOCK * pow((double)n, 3);
+}
+
 galv_status galv_spectrum_matrix(size_t n, double *a, double trace, const galv_goal *goal,
                                  size_t *known, double **values, double **vectors,
                                  double **residuals, galv_stage *stage)
 {
     size_t nev = goal->modes > goal->spectrum ? goal->modes : goal->spectrum;
-    for (;;) {
+    for (bool again = false;; again = true) {
         galv_stage_next(stage, GALV_STAGE_SOLVED);
-        bool dense = n <= DENSE_ORDER || 3 * nev >= n;
+        bool dense = n <= DENSE_ORDER || 3 * nev >= n || (again && slow_in_blocks(n, nev));
         size_t wanted = dense ? n : nev;
         galv_status status = allocate_pairs(n, wanted, wanted, values, vectors, residuals);
         if (!status)
