@@ -208,6 +208,13 @@ grep -q '"done": "lengths times 0.001; reversed x; 3 edges put into the centre p
 expect 0 "$nurbs" hydrostatics cleaned.json --json
 close draft 0.125 1e-9
 [ ! -s stderr ] || fail "a cleaned hull needs cleaning"
+# A half whose interpolated counter swings across the centre plane is written as it is lifted.
+expect 0 "$nurbs" skin "$hulls/series60.offsets.csv" -o swings.json
+expect 0 "$nurbs" hydrostatics swings.json
+grep -q "lifted onto y >= 0" stderr || fail "Series 60 no longer needs lifting"
+expect 0 "$nurbs" clean swings.json lifted.json
+expect 0 "$nurbs" hydrostatics lifted.json
+! grep -q lifted stderr || fail "what was cleaned is lifted again"
 expect 0 "$nurbs" clean four.json port.json --keep 0,1,2,3
 expect 0 "$nurbs" clean wigley.json ship.json --both
 expect 0 "$nurbs" moments ship.json --json

@@ -154,6 +154,38 @@ static int snap(struct request *request, nurbs_patches **patches)
     return CLI_OK;
 }
 
+static bool reaches_across(const nurbs_surface *surface)
+{
+    size_t points = nurbs_surface_size(surface, 0) * nurbs_surface_size(surface, 1);
+    bool across = false;
+    for (size_t k = 0; k < points; k++)
+        across |= nurbs_surface_points(surface)[3 * k + 1] < 0;
+    return across && !nurbs_surface_weights(surface);
+}
+
+/* Patches of a half off the other side of the centre plane, as the hull has lifted them for itself:
+ * what is told of it then holds for the file too. */
+static nurbs_status raise_sides(nurbs_patches **patches)
+{
+    nurbs_patches *raised = NULL;
+    nurbs_status status = start_patches(*patches, &raised);
+    for (size_t k = 0; k < nurbs_patches_count(*patches) && status == NURBS_OK; k++) {
+        const nurbs_surface *surface = nurbs_patches_get(*patches, k);
+        nurbs_surface *lifted = NULL;
+        double by;
+        if (reaches_across(surface))
+            status = nurbs_surface_raise_side(surface, &lifted, &by);
+        if (status == NURBS_OK)
+            status = add_with_parameters(lifted ? lifted : surface, *patches, k, raised);
+        nurbs_surface_free(lifted);
+    }
+    if (status == NURBS_OK)
+        replace(patches, raised);
+    else
+        nurbs_patches_free(raised);
+    return status;
+}
+
 /* Writes the hull with the water at z = 0, one side of it or both. */
 static int save(struct request *request, const nurbs_hull *hull)
 {
@@ -161,6 +193,8 @@ static int save(struct request *request, const nurbs_hull *hull)
     nurbs_patches *moved = NULL, *both = NULL;
     bool mirror = request->both && nurbs_hull_is_half(hull);
     nurbs_status status = nurbs_patches_transform(nurbs_hull_full(hull), NULL, down, &moved);
+    if (status == NURBS_OK && nurbs_hull_is_half(hull))
+        status = raise_sides(&moved);
     if (status == NURBS_OK && mirror)
         status = nurbs_patches_mirror(moved, 1, &both);
     if (level != 0)
