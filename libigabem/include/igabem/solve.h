@@ -118,8 +118,9 @@ IGABEM_API igabem_status igabem_options_freeze(const igabem_hull *hull, igabem_o
 /** Sets refine and refine_v so that the knots of the hull give at least so many unknowns (64 parts
  * a span at most): a hull has as many spans as its shape needs, perhaps a single one, and waves
  * need more. 400 keep C_w of a Wigley hull within 1 % of its limit for Fr >= 0.25 and that of a
- * submerged spheroid within 1e-3 for Fr >= 0.30. A hull with more is left at 1. Where elements_u and
- * elements_v are -1 and the rule gives own knots, these get so many, and refine and refine_v are 1.
+ * submerged spheroid within 1e-3 for Fr >= 0.30. A hull with more is left at 1. Where elements_u
+ * and elements_v are -1 and the rule gives own knots, these get so many, and refine and refine_v
+ * are 1.
  */
 IGABEM_API void igabem_options_refine(const igabem_hull *hull, size_t unknowns,
                                       igabem_options *options);

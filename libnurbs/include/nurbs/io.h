@@ -72,8 +72,8 @@ NURBS_API nurbs_status nurbs_curves_read_iges(const char *path, size_t *n, nurbs
 /** Frees n curves and their array. */
 NURBS_API void nurbs_curves_free(size_t n, nurbs_curve **curves);
 
-/** Triangles (binary STL) and quads (VTU, ASCII) with `parts` subdivisions a knot span, 0 to 1000; 0:
- * as many, 4 at least, as keep chords within 2e-5 of the extent and make no more than 50000
+/** Triangles (binary STL) and quads (VTU, ASCII) with `parts` subdivisions a knot span, 0 to 1000;
+ * 0: as many, 4 at least, as keep chords within 2e-5 of the extent and make no more than 50000
  * triangles. */
 NURBS_API nurbs_status nurbs_patches_write_stl(const nurbs_patches *patches, int parts,
                                                const char *path);
