@@ -40,6 +40,18 @@ void layer_work_free(struct layer_work *work)
     free(work->kernel);
 }
 
+bool layer_work_reserve(struct layer_work *work, const struct nodes *nodes)
+{
+    if (nodes->failed)
+        return false;
+    if (2 * nodes->n > work->capacity) {
+        free(work->kernel);
+        work->capacity = 2 * nodes->capacity;
+        work->kernel = malloc(work->capacity * sizeof *work->kernel);
+    }
+    return work->kernel;
+}
+
 /* G and dG/dn of nodes, factor included, added. normal: three arrays. */
 VECTOR_INLINE void kernels(const double p[3], double factor, size_t n, const double *x,
                            const double *y, const double *z, const double *const normal[3],
@@ -76,12 +88,7 @@ static igabem_status flush(struct layer_work *work, struct nodes *nodes, const d
 {
     if (!nodes->failed && nodes->n == 0)
         return IGABEM_OK;
-    if (!nodes->failed && 2 * nodes->n > work->capacity) {
-        free(work->kernel);
-        work->capacity = 2 * nodes->capacity;
-        work->kernel = malloc(work->capacity * sizeof *work->kernel);
-    }
-    if (nodes->failed || !work->kernel)
+    if (!layer_work_reserve(work, nodes))
         return no_memory();
     double *single = work->kernel, *dipole = single + nodes->n;
     node_kernels(p, factor, nodes, single, dipole);
@@ -92,17 +99,8 @@ static igabem_status flush(struct layer_work *work, struct nodes *nodes, const d
     for (size_t b = 0; b < nodes->blocks && rows->dipole; b++)
         for (size_t i = nodes->block[b].begin; i < nodes->block[b].end; i++) {
             const struct element *element = nodes->block[b].element;
-            size_t n = (size_t)element->degree[1] + 1;
-            const double *bu = nodes->bu + i * nodes->side[0];
-            const double *bv = nodes->bv + i * nodes->side[1];
-            double weight = 1.0;
-            if (element->rational) {
-                weight = 0.0;
-                for (size_t a = 0; a <= (size_t)element->degree[0]; a++)
-                    for (size_t c = 0; c < n; c++)
-                        weight += bu[a] * bv[c] * element->net[4 * (a * n + c) + 3];
-            }
-            rows->flow += single[i] * nodes->normal[3 * i] * nodes->g[i] * weight;
+            rows->flow +=
+                single[i] * nodes->normal[3 * i] * nodes->g[i] * nodes_weight(nodes, element, i);
         }
     nodes_clear(nodes);
     return IGABEM_OK;

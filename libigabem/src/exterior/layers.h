@@ -45,6 +45,8 @@ struct layer_work {
 
 igabem_status layer_work_create(const struct layer_surface *surface, struct layer_work *work);
 void layer_work_free(struct layer_work *work);
+/* Room in kernel for two numbers a node; false: no memory, for them or for the nodes. */
+bool layer_work_reserve(struct layer_work *work, const struct nodes *nodes);
 
 /* Adds the rows of a point. */
 igabem_status layer_add(const struct layer_surface *surface, const struct layer_point *point,

@@ -125,31 +125,13 @@ static void add_far(const struct plane_layer *layer, size_t panel, const int cla
     take(sum, mirror, derivative);
 }
 
-/* Bernstein coefficients at a node. */
-static double at_node(const struct nodes *nodes, const struct element *element, size_t node,
-                      const double *coefficients, size_t step)
-{
-    size_t m = (size_t)element->degree[0] + 1, n = (size_t)element->degree[1] + 1;
-    const double *bu = nodes->bu + node * nodes->side[0], *bv = nodes->bv + node * nodes->side[1];
-    double value = 0.0;
-    for (size_t a = 0; a < m; a++)
-        for (size_t b = 0; b < n; b++)
-            value += bu[a] * bv[b] * coefficients[(a * n + b) * step];
-    return value;
-}
-
 static igabem_status add_near(const struct plane_layer *layer, const double p[2], double mirror,
                               struct layer_work *work, double derivative[5])
 {
     struct nodes *nodes = &work->nodes;
     if (!nodes->failed && nodes->n == 0)
         return IGABEM_OK;
-    if (!nodes->failed && 2 * nodes->n > work->capacity) {
-        free(work->kernel);
-        work->capacity = 2 * nodes->capacity;
-        work->kernel = malloc(work->capacity * sizeof *work->kernel);
-    }
-    if (nodes->failed || !work->kernel)
+    if (!layer_work_reserve(work, nodes))
         return no_memory();
     double *source = work->kernel, *dipole = source + nodes->n, sum[5];
     for (size_t b = 0; b < nodes->blocks; b++) {
@@ -157,10 +139,9 @@ static igabem_status add_near(const struct plane_layer *layer, const double p[2]
         double phi[ELEMENT_FUNCTIONS];
         element_gather(element, layer->phi, phi);
         for (size_t i = nodes->block[b].begin; i < nodes->block[b].end; i++) {
-            double weight =
-                element->rational ? at_node(nodes, element, i, element->net + 3, 4) : 1.0;
+            double weight = nodes_weight(nodes, element, i);
             source[i] = layer->flux ? nodes->normal[3 * i] * nodes->g[i] * weight : 0.0;
-            dipole[i] = nodes->g[i] * at_node(nodes, element, i, phi, 1);
+            dipole[i] = nodes->g[i] * nodes_value(nodes, element, i, phi, 1);
         }
     }
     near_sums(p, nodes, source, dipole, sum);

@@ -24,19 +24,6 @@ void sources_free(struct sources *sources)
     free(sources);
 }
 
-/* Sum of Bernstein coefficients at a node. */
-static double at_node(const struct nodes *nodes, const struct element *element, size_t node,
-                      const double *coefficients, size_t step)
-{
-    size_t m = (size_t)element->degree[0] + 1, n = (size_t)element->degree[1] + 1;
-    const double *bu = nodes->bu + node * nodes->side[0], *bv = nodes->bv + node * nodes->side[1];
-    double sum = 0.0;
-    for (size_t a = 0; a < m; a++)
-        for (size_t b = 0; b < n; b++)
-            sum += bu[a] * bv[b] * coefficients[(a * n + b) * step];
-    return sum;
-}
-
 /* Arrays that the surface and the waterline share: position, strength, measure (area or length) and
  * velocity, indexed like the nodes. */
 struct columns {
@@ -56,14 +43,13 @@ static void evaluate(const igabem_solution *solution, const struct nodes *nodes,
         for (size_t c = 0; c < 3 && solution->velocity; c++)
             element_gather(element, solution->velocity + c * unknowns, field[c + 1]);
         for (size_t i = block->begin; i < block->end; i++) {
-            double weight =
-                element->rational ? at_node(nodes, element, i, element->net + 3, 4) : 1.0;
-            columns->strength[i] = nodes->g[i] * at_node(nodes, element, i, field[0], 1);
+            double weight = nodes_weight(nodes, element, i);
+            columns->strength[i] = nodes->g[i] * nodes_value(nodes, element, i, field[0], 1);
             columns->measure[i] = nodes->g[i] * weight;
             if (columns->potential)
-                columns->potential[i] = at_node(nodes, element, i, field[0], 1) / weight;
+                columns->potential[i] = nodes_value(nodes, element, i, field[0], 1) / weight;
             for (size_t c = 0; c < 3 && solution->velocity; c++)
-                columns->velocity[c][i] = at_node(nodes, element, i, field[c + 1], 1) / weight;
+                columns->velocity[c][i] = nodes_value(nodes, element, i, field[c + 1], 1) / weight;
         }
     }
 }

@@ -480,6 +480,23 @@ void nodes_fold(const struct nodes *nodes, double *f)
     }
 }
 
+double nodes_value(const struct nodes *nodes, const struct element *element, size_t node,
+                   const double *coefficients, size_t step)
+{
+    size_t m = (size_t)element->degree[0] + 1, n = (size_t)element->degree[1] + 1;
+    const double *bu = nodes->bu + node * nodes->side[0], *bv = nodes->bv + node * nodes->side[1];
+    double sum = 0.0;
+    for (size_t a = 0; a < m; a++)
+        for (size_t b = 0; b < n; b++)
+            sum += bu[a] * bv[b] * coefficients[(a * n + b) * step];
+    return sum;
+}
+
+double nodes_weight(const struct nodes *nodes, const struct element *element, size_t node)
+{
+    return element->rational ? nodes_value(nodes, element, node, element->net + 3, 4) : 1.0;
+}
+
 VECTOR_MULTIVERSION
 void nodes_scatter(const struct nodes *nodes, size_t fields, const double *k, size_t stride,
                    double *rows, size_t row_stride)

@@ -100,6 +100,11 @@ void nodes_jet(struct nodes *nodes, size_t node, const struct jet *jet);
 void nodes_local(const struct nodes *nodes, const struct element *element, size_t node,
                  double local[2]);
 
+/* Sum of Bernstein coefficients of its element, `step` apart, at a node; the homogeneous weight. */
+double nodes_value(const struct nodes *nodes, const struct element *element, size_t node,
+                   const double *coefficients, size_t step);
+double nodes_weight(const struct nodes *nodes, const struct element *element, size_t node);
+
 /* Integrals of `fields` kernels (values k[f * stride + node]) over the blocks against the spline
  * basis, added to rows[f * row_stride + unknown]. */
 void nodes_scatter(const struct nodes *nodes, size_t fields, const double *k, size_t stride,
