@@ -31,6 +31,13 @@ walk() {
     { sleep 0.1; "$@" 2>err; echo $? >code; } | true
     refuses "standard output cannot be written: Broken pipe" "$(cat code)" "$@"
 }
+# json COMMAND...: one JSON object on standard output, and nothing else.
+with_json=" "
+json() {
+    "$@" --json >out 2>err || fail "exit $? of $* --json: $(head -c 300 err)"
+    python3 -c 'import json, sys; sys.exit(not json.load(open("out")))' 2>err || fail "no JSON object: $* --json: $(head -c 200 out)"
+    with_json="$with_json$1:$2 "
+}
 
 prepare nurbs make wigley --length 1 -o hull.json
 prepare nurbs grid hull.json --rows 12 --columns 7 -o grid.csv
@@ -56,49 +63,92 @@ prepare hullopt run run.yaml --out run
 
 # Without --json several commands of nurbs are silent.
 walk nurbs info hull.json
-walk nurbs info hull.json --json
 walk nurbs eval hull.json --at uv.csv --derivatives 1
 walk nurbs hydrostatics hull.json
 walk nurbs moments hull.json
 walk nurbs closest hull.json --at points.csv
-walk nurbs make sphere -o sphere.json --json
-walk nurbs grid hull.json -o again.csv --json
-walk nurbs skin grid.csv -o skin.json --json
-walk nurbs fit grid.csv -o fit.json --json
-walk nurbs simplify hull.json --tolerance 1e-3 -o light.json --json
-walk nurbs wetted hull.json --level -0.01 -o wetted.json --json
 walk nurbs cut hull.json --plane z=-0.01
-walk nurbs edit hull.json reverse:u -o edit.json --json
-walk nurbs convert hull.json hull.igs --json
-walk nurbs plot hull.json -o hull.svg --json
 walk igabem hydrostatics hull.json
-walk igabem hydrostatics hull.json --json
 walk igabem check hull.json
-walk igabem check hull.json --json
 walk igabem solve hull.json --fr 0.3 --formulation michell --elements 8,3
-walk igabem solve hull.json --fr 0.3 --formulation michell --elements 8,3 --json
 green() { igabem green <green.csv; }
 walk green
 walk galv reduce --hull grid.csv --shape "$shape" --random 40
-walk galv reduce --hull grid.csv --shape "$shape" --random 40 --json
 walk galv extend model.h5 --random 4 -o more.h5
 walk galv info model.h5
 walk galv project model.h5 --hull grid.csv
 walk galv reconstruct model.h5 --latent 0.01
 walk galv backmap model.h5 --latent 0.01
 walk bayesopt run study.yaml
-walk bayesopt run study.yaml --json
 walk bayesopt ask asked.db
 walk bayesopt best study.db
 walk bayesopt status study.db
-walk bayesopt status study.db --json
 walk bayesopt export study.db
 walk bayesopt design lhs 4 2
 walk hullopt report run
-walk hullopt report run --json
 walk hullopt check run.yaml
-walk hullopt check run.yaml --json
 walk hullopt run run.yaml --out run --resume
+walk hullopt init
+
+# Every subcommand with --json.
+both() { json "$@" && walk "$@" --json; }
+both nurbs info hull.json
+both nurbs make sphere -o sphere.json
+both nurbs grid hull.json -o again.csv
+both nurbs skin grid.csv -o skin.json
+both nurbs fit grid.csv -o fit.json
+both nurbs simplify hull.json --tolerance 1e-3 -o light.json
+both nurbs wetted hull.json --level -0.01 -o wetted.json
+both nurbs edit hull.json reverse:u -o edit.json
+both nurbs convert hull.json hull.igs
+both nurbs plot hull.json -o hull.svg
+json nurbs eval hull.json --at uv.csv
+json nurbs hydrostatics hull.json
+json nurbs moments hull.json
+json nurbs closest hull.json --at points.csv
+json nurbs cut hull.json --plane z=-0.01
+json nurbs clean hull.json clean.json
+json nurbs sections hull.igs -o sections.json
+both igabem hydrostatics hull.json
+both igabem check hull.json
+both igabem solve hull.json --fr 0.3 --formulation michell --elements 8,3
+json igabem green <green.csv
+both galv reduce --hull grid.csv --shape "$shape" --random 40
+json galv extend model.h5 --random 4 -o more.h5
+json galv info model.h5
+json galv project model.h5 --hull grid.csv
+json galv reconstruct model.h5 --latent 0.01
+json galv reconstruct model.h5 --latent 0.01 -o moved.csv
+json galv backmap model.h5 --latent 0.01
+both galv plot model.h5 -o modes.svg
+both galv animate model.h5 -o strip.svg
+both bayesopt run study.yaml
+json bayesopt ask asked.db
+json bayesopt heartbeat asked.db 1
+json bayesopt release asked.db 1
+json bayesopt tell asked.db 1 0.5
+json bayesopt best study.db
+both bayesopt status study.db
+json bayesopt predict study.db --point 0.5
+json bayesopt export study.db
+both bayesopt plot study.db -o history.svg
+both bayesopt report study.db -o study.html
+both bayesopt design lhs 4 2 -o design.csv
+both hullopt init
+both hullopt check run.yaml
+both hullopt run run.yaml --out run --resume
+both hullopt report run
+json hullopt status run
+json hullopt compare run run
+json hullopt forecast run.yaml
+json hullopt evaluate run.yaml --latent 0,0,0,0
+hullopt serve run.yaml --port 0 --json >out 2>err &
+server=$!
+for _ in $(seq 200); do [ -s out ] && break || sleep 0.1; done
+kill $server
+wait $server
+python3 -c 'import json; json.load(open("out"))["url"]' 2>err || fail "no JSON object: hullopt serve: $(head -c 200 out)"
+with_json="${with_json}hullopt:serve "
 
 # Texts of every subcommand that --help names, and of those above which print nothing.
 for tool in nurbs igabem galv bayesopt hullopt; do
@@ -107,6 +157,7 @@ for tool in nurbs igabem galv bayesopt hullopt; do
     for command in $($tool --help | sed -n 's/^ \{0,7\}\([a-z][a-z]*\)  .*/\1/p; s/^ *\(usage: \)\?'$tool' \([a-z]*\) .*/\2/p' | sort -u); do
         $tool "$command" --help >text 2>&1 || continue
         walk $tool "$command" --help
+        case $with_json in *" $tool:$command "*) ;; *) fail "$tool $command was not tried with --json" ;; esac
     done
 done
 

@@ -38,7 +38,7 @@ static const struct setting ROWS[] = {
            .sentence = "design of the new store; 0: by rule"),
     OPTION("budget", COUNT, budget, .given = offsetof(struct arguments, budget_given),
            .sentence = "evaluations in all, also of a store that exists; 0: by rule"),
-    OPTION("json", SWITCH, json, .sentence = "one JSON object"),
+    OPTION_JSON,
 };
 
 static void check(struct settings_source *source, void *target)

@@ -11,6 +11,8 @@
         __VA_ARGS__                                                                                \
     }
 
+#define OPTION_JSON OPTION("json", SWITCH, json, .sentence = "one JSON object")
+
 int command_run(int argc, char **argv);
 int command_ask(int argc, char **argv);
 int command_tell(int argc, char **argv);
@@ -28,5 +30,8 @@ struct names;
 typedef struct bayesopt bayesopt;
 /* The Pareto set of a store with several objectives, as CSV or JSON; false after a sentence. */
 bool print_front(bayesopt *bo, const struct names *names, bool json);
+/* What a command that writes a file tells of it as JSON: its name, and of how many evaluations it
+ * is. */
+bool print_file(const char *path, const bayesopt *bo);
 
 #endif

@@ -35,7 +35,8 @@ static const struct setting ROWS[] = {
     OPTION("power", NUMBER, power, .most = INFINITY, .open_least = true, .otherwise = "2",
            .sentence = "annealing energy sum 1/dist^X: 2 Audze-Eglais, 50 near maximin"),
     OPTION("output", TEXT, output, .letter = 'o', .sentence = "file, instead of standard output"),
-    OPTION("json", SWITCH, json, .sentence = "the design's measures as JSON instead of the points"),
+    OPTION("json", SWITCH, json,
+           .sentence = "the design's measures as JSON; the points go to --output alone"),
 };
 
 static void check(struct settings_source *source, void *target)
@@ -76,12 +77,12 @@ static bool print_measures(const struct arguments *a, const double *u)
     bayesopt_design_quality q;
     if (bayesopt_design_measure(a->n, a->d, u, &q))
         return cli_refuse("%s", bayesopt_last_error());
-    return print_json(stdout,
-                      json_pack("{s:s, s:I, s:I, s:f, s:f, s:f, s:f, s:f}", "kind",
-                                bayesopt_design_name((bayesopt_design_kind)a->kind), "points",
-                                (json_int_t)a->n, "variables", (json_int_t)a->d, "audze_eglais",
-                                q.audze_eglais, "phi_p", q.phi_p, "min_distance", q.min_distance,
-                                "discrepancy", q.discrepancy, "occupied", q.occupied));
+    return print_json(
+        stdout, json_pack("{s:s?, s:s, s:I, s:I, s:f, s:f, s:f, s:f, s:f}", "file", a->output,
+                          "kind", bayesopt_design_name((bayesopt_design_kind)a->kind), "points",
+                          (json_int_t)a->n, "variables", (json_int_t)a->d, "audze_eglais",
+                          q.audze_eglais, "phi_p", q.phi_p, "min_distance", q.min_distance,
+                          "discrepancy", q.discrepancy, "occupied", q.occupied));
 }
 
 static bool design(const struct arguments *a)
@@ -94,7 +95,8 @@ static bool design(const struct arguments *a)
     bool ok = u != NULL || cli_refuse("out of memory");
     ok = ok && (!bayesopt_design((bayesopt_design_kind)a->kind, a->n, a->d, &options, u) ||
                 cli_refuse("%s", bayesopt_last_error()));
-    ok = ok && (a->json ? print_measures(a, u) : print_points(a, u));
+    ok =
+        ok && ((a->json && !a->output) || print_points(a, u)) && (!a->json || print_measures(a, u));
     free(u);
     return ok;
 }

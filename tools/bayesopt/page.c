@@ -32,11 +32,13 @@ static const char STYLE[] =
 
 struct arguments {
     char *store, *output;
+    bool json;
 };
 
 static const struct setting ROWS[] = {
     OPTION("STORE", TEXT, store, .required = true, .sentence = "the file that holds the study"),
     OPTION("output", TEXT, output, .letter = 'o', .required = true, .sentence = "the page, HTML"),
+    OPTION_JSON,
 };
 static const struct settings TABLE = {
     sizeof ROWS / sizeof *ROWS, ROWS,
@@ -260,7 +262,7 @@ static bool report(const struct arguments *a)
         cli_file_abandon(&output.file);
         good = false;
     } else if (good) {
-        good = output_close(&output);
+        good = output_close(&output) && (!a->json || print_file(a->output, bo));
     }
     names_free(&names);
     bayesopt_free(bo);

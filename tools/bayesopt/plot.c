@@ -4,7 +4,7 @@
 
 struct arguments {
     char *store, *output;
-    bool front, slices, contours, loo, parallel, sensitivity;
+    bool front, slices, contours, loo, parallel, sensitivity, json;
 };
 
 static const struct setting ROWS[] = {
@@ -23,6 +23,7 @@ static const struct setting ROWS[] = {
     OPTION("parallel", SWITCH, parallel,
            .sentence = "points as lines across one axis per variable (12 of them)"),
     OPTION("sensitivity", SWITCH, sensitivity, .sentence = "Sobol' indices of the model"),
+    OPTION_JSON,
 };
 
 static picture *chosen(const struct arguments *a)
@@ -63,7 +64,8 @@ int command_plot(int argc, char **argv)
         code = CLI_FAILED;
     } else if (code < 0) {
         bool good = bayesopt_count(bo) > 0 || cli_refuse("%s: nothing to plot yet", a.store);
-        good = good && chosen(&a)(&sheet, bo, &names) && plot_save(&sheet, a.output);
+        good = good && chosen(&a)(&sheet, bo, &names) && plot_save(&sheet, a.output) &&
+               (!a.json || print_file(a.output, bo));
         code = good ? CLI_OK : CLI_FAILED;
         names_free(&names);
         bayesopt_free(bo);

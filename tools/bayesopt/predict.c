@@ -18,7 +18,7 @@ static const struct setting ROWS[] = {
     OPTION("table", TEXT, table,
            .sentence = "CSV file of points ('-': standard input), a column per variable"),
     OPTION("output", TEXT, output, .letter = 'o', .sentence = "file, instead of standard output"),
-    OPTION("json", SWITCH, json, .sentence = "one JSON object"),
+    OPTION_JSON,
 };
 
 static void check(struct settings_source *source, void *target)

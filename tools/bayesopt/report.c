@@ -15,7 +15,7 @@ struct arguments {
 
 static const struct setting ROWS[] = {
     OPTION("STORE", TEXT, store, .required = true, .sentence = "the file that holds the study"),
-    OPTION("json", SWITCH, json, .sentence = "one JSON object"),
+    OPTION_JSON,
     OPTION("output", TEXT, output, .letter = 'o', .sentence = "file, instead of standard output"),
 };
 
@@ -54,6 +54,12 @@ static json_t *row_json(const struct names *names, const bayesopt_point *p)
                      "level", p->level, "x", point_json(names, p->x), "f", number_json(p->f),
                      "constraints", named_json(names->m, names->constraints, p->constraints),
                      "feasible", p->feasible, "note", p->note, "attributes", attributes);
+}
+
+bool print_file(const char *path, const bayesopt *bo)
+{
+    return print_json(stdout, json_pack("{s:s, s:I}", "file", path, "evaluations",
+                                        (json_int_t)bayesopt_count(bo)));
 }
 
 bool print_front(bayesopt *bo, const struct names *names, bool json)

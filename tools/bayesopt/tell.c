@@ -19,6 +19,7 @@ struct arguments {
 
 static const struct setting ROWS[] = {
     OPTION("STORE", TEXT, store, .required = true, .sentence = "the file that holds the study"),
+    OPTION_JSON, /* these two of all three commands */
     OPTION("constraints", NUMBERS, constraints, .count = offsetof(struct arguments, n_constraints),
            .sentence = "values of the outcome constraints"),
     OPTION("failed", TEXT, failed, .sentence = "the evaluation failed, for this reason"),
@@ -30,7 +31,6 @@ static const struct setting ROWS[] = {
     OPTION("table", TEXT, table,
            .sentence = "CSV file of results ('-': standard input) with the columns f, one per "
                        "constraint, and id or one per variable or both; also one of 'export'"),
-    OPTION("json", SWITCH, json, .sentence = "one JSON object"),
 };
 static const struct settings TABLE = {
     sizeof ROWS / sizeof *ROWS, ROWS,
@@ -45,16 +45,16 @@ static const struct settings TABLE = {
         "to be repeated, an evaluation made elsewhere, or a table of results. VALUE is a number;\n"
         "nan and inf count as failures.\n\n"};
 static const struct settings RELEASE = {
-    1, ROWS,
-    .usage = "usage: bayesopt release STORE ID\n"
+    2, ROWS,
+    .usage = "usage: bayesopt release STORE ID [--json]\n"
              "\n"
              "Gives up a pending point: the next 'bayesopt ask' or 'run' gives it out again,\n"
              "whoever had it.\n\n"};
 
 static const struct settings HEARTBEAT = {
-    1, ROWS,
+    2, ROWS,
     .usage =
-        "usage: bayesopt heartbeat STORE ID\n"
+        "usage: bayesopt heartbeat STORE ID [--json]\n"
         "\n"
         "Says that a pending point is still in work: 'bayesopt ask --reissue --stale SECONDS'\n"
         "leaves it alone for so long. 'bayesopt run' says so itself every minute.\n\n"};

@@ -60,6 +60,7 @@ static const struct setting INIT[] = {
     ROW(TEXT, shape, "how it may be modified", .option = "SHAPE.yaml"),
     ROW(TEXT, out, "file to write; by default standard output", .option = "output", .letter = 'o'),
     ROW(NUMBER, froude, "Froude number", .option = "fr", SETTING_INSIDE(0, 10)),
+    JSON,
 };
 static const struct setting CHECK[] = {
     HEADING("check"),
@@ -114,6 +115,7 @@ static const struct setting SERVE[] = {
         SETTING_FROM(0, 65535), .words = OF_PORT, .otherwise = "of $PORT, or 4242"),
     ROW(INTEGER, jobs, "designs evaluated at once, with as many shares of the threads",
         .option = "jobs", SETTING_FROM(1, 64), .otherwise = "1"),
+    JSON,
 };
 
 static const struct setting FORECAST[] = {

@@ -2,6 +2,7 @@
 #include "cli/commands.h"
 #include "core/identity.h"
 #include "core/sentence.h"
+#include "json_result.h"
 #include "serve/designs.h"
 #include "serve/http.h"
 
@@ -93,6 +94,22 @@ static json_t *design_labels(const struct served *model)
                      "wetted area, m^2");
 }
 
+static bool print_text(const struct options *options, unsigned port, size_t modes)
+{
+    printf("http://%s:%u serves model 'latent' of %zu variables, %d designs at once\n",
+           options->address, port, modes, options->jobs);
+    return cli_printed() == CLI_OK;
+}
+
+static bool print_json(const struct options *options, unsigned port, size_t modes)
+{
+    char url[80];
+    snprintf(url, sizeof url, "http://%s:%u", options->address, port);
+    return json_result_print(json_pack("{s:s, s:s, s:I, s:i}", "url", url, "model", "latent",
+                                       "variables", (json_int_t)modes, "jobs", options->jobs),
+                             JSON_COMPACT) == CLI_OK;
+}
+
 /* Serves until one of the signals comes. */
 static bool serve(const struct options *options, uint16_t port, struct server *server,
                   const sigset_t *signals)
@@ -117,9 +134,8 @@ static bool serve(const struct options *options, uint16_t port, struct server *s
         http_start(options->address, port, sizeof models / sizeof *models, models, sentence);
     if (!http)
         return cli_refuse("%s", sentence);
-    printf("http://%s:%u serves model 'latent' of %zu variables, %d designs at once\n",
-           options->address, http_port(http), modes, options->jobs);
-    bool ok = cli_printed() == CLI_OK;
+    bool ok = options->json ? print_json(options, http_port(http), modes)
+                            : print_text(options, http_port(http), modes);
     int signal;
     if (ok)
         sigwait(signals, &signal);
