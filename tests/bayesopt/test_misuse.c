@@ -1,5 +1,6 @@
 /* Every public call answers NULL and absurd sizes by a status, or by 0 or NAN where it returns a
- * value. test_misuse.sh compares the list with what the library exports. */
+ * value. test_misuse.sh compares the list, and that of test_descent.c, with what the library
+ * exports. */
 #include "check.h"
 
 #include <bayesopt/bayesopt.h>

@@ -25,6 +25,7 @@
 #define BAYESOPT_BAYESOPT_H
 
 #include <bayesopt/acquisition.h>
+#include <bayesopt/descent.h>
 #include <bayesopt/design.h>
 #include <bayesopt/expression.h>
 #include <bayesopt/gp.h>

@@ -3,8 +3,10 @@
 #include "cli.h"
 #include "core/constraints.h"
 #include "core/forecast.h"
-#include "core/gn_model.h"
 #include "core/objective.h"
+
+#include <bayesopt/descent.h>
+#include <igabem/residual.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -14,19 +16,26 @@
 /* The coarse mesh for derivatives: three quarters of the elements each way, ten times the tolerance
  * of the quadrature. */
 static const double COARSE_SHARE = 0.75, COARSE_TOLERANCE = 10;
-static const double WHOLE_BOX = 2; /* a radius that the box ends before */
-/* Of initial designs: how far the model is asked to look, and how far inside of the limits. */
-static const double DESIGN_RADIUS = 0.5, DESIGN_MARGIN = 0.01;
-enum { DRAWS = 2 }; /* points tried for each */
-static const double UNREACHED = 1e3;
+/* Of initial designs: how far the model is asked to look, and how far inside of the limits; the
+ * latter of a forecast too. */
+static const double DESIGN_RADIUS = 0.5, DESIGN_MARGIN = 0.01, FORECAST_MARGIN = 2e-3;
+enum { DRAWS = 2 };                          /* points tried for each */
+static const double UNREACHED = 1e3;         /* finite: SLSQP computes with it */
 static const double FORECAST_OUTSIDE = 1e-4; /* no step keeps the limits */
-enum { ALONG = 60, AROUND = 16 };            /* samples of the pressure */
+enum {
+    ALONG = 60, /* samples of the pressure */
+    AROUND = 16,
+    /* Those of the waves, and one for the friction where the total resistance is lowered. */
+    RESIDUALS = IGABEM_WAVE_RESIDUALS + 1,
+    POINT = sizeof(igabem_pressure_sample) / sizeof(double)
+};
 
 struct descent {
     struct problem *base;
     struct search *search; /* NULL: a forecast, which keeps no record */
-    struct gn_problem problem;
-    struct gn_sample *sample; /* to be filled by look() */
+    bayesopt_descent_problem problem;
+    size_t points;                   /* of the pressure; 0: not bounded */
+    bayesopt_descent_sample *sample; /* to be filled by look() */
     igabem_options coarse[SETTINGS_MOST];
     size_t valued, differentiated;
     bool ok; /* the record took everything */
@@ -35,34 +44,35 @@ struct descent {
 static bool look(void *user_data, igabem_solution *const *solutions)
 {
     struct descent *d = user_data;
-    struct gn_sample *s = d->sample;
-    for (size_t m = 0; m < d->problem.settings; m++)
-        if (igabem_wave_residuals(solutions[m], s->residual + m * GN_RESIDUALS) != IGABEM_OK)
+    bayesopt_descent_sample *s = d->sample;
+    for (size_t m = 0; m < d->problem.n_settings; m++)
+        if (igabem_wave_residuals(solutions[m], s->residual + m * RESIDUALS) != IGABEM_OK)
             return core_fail("forces: %s", igabem_last_error());
-    if (!d->problem.points)
+    if (!d->points)
         return true;
     igabem_pressure_sample *point;
     size_t n;
     if (igabem_pressure_samples(solutions[0], ALONG, AROUND, &n, &point) != IGABEM_OK)
         return core_fail("forces: %s", igabem_last_error());
-    bool same = n == s->points;
+    bool same = n == d->points;
     if (same)
-        memcpy(s->point, point, n * sizeof *point);
+        memcpy(s->state, point, n * sizeof *point);
     free(point);
     return same ||
-           core_fail("forces: %zu samples of the pressure, the parent has %zu", n, s->points);
+           core_fail("forces: %zu samples of the pressure, the parent has %zu", n, d->points);
 }
 
 /* What is lowered in place of C_w by the settings at flow.froude: (C_w + (1 + k) C_f) S / S_0 of
  * the original's surface S_0. A resistance is a sum of squares too: each residual times sqrt(S /
  * S_0), and one more for the friction. */
-static void take_surface(const struct descent *d, double area, bool valued, struct gn_sample *s)
+static void take_surface(const struct descent *d, double area, bool valued,
+                         bayesopt_descent_sample *s)
 {
     const struct config *config = d->base->config;
     double share = area / nurbs_hull_hydrostatics(d->base->parent.hull)->wetted_area;
     double friction = objective_friction(config, problem_length(d->base));
-    for (size_t m = 0; m < d->problem.settings; m++) {
-        double *r = s->residual + m * GN_RESIDUALS;
+    for (size_t m = 0; m < d->problem.n_settings; m++) {
+        double *r = s->residual + m * RESIDUALS;
         bool counts = m <= config->models && config->quantity != QUANTITY_CW;
         for (int i = 0; i < IGABEM_WAVE_RESIDUALS && counts; i++)
             r[i] *= sqrt(share);
@@ -74,7 +84,7 @@ static void take_surface(const struct descent *d, double area, bool valued, stru
 
 static bool is_parent(const struct descent *d, const double *u)
 {
-    for (size_t k = 0; k < d->problem.n; k++)
+    for (size_t k = 0; k < d->problem.d; k++)
         if (u[k] != 0)
             return false;
     return true;
@@ -89,27 +99,28 @@ static int is_recorded(const struct descent *d, const double *u)
     if (!record_evaluations(d->search->record, &list, &n))
         return -1;
     for (size_t i = 0; i < n && !found; i++)
-        found = memcmp(list[i].u, u, d->problem.n * sizeof *u) == 0;
+        found = memcmp(list[i].u, u, d->problem.d * sizeof *u) == 0;
     free(list);
     return found;
 }
 
-static void keep_values(const struct evaluation *e, struct gn_sample *sample)
+static void keep_values(const struct evaluation *e, bayesopt_descent_sample *sample)
 {
     sample->value[0] = e->cw;
     memcpy(sample->value + 1, e->cw_model, e->models * sizeof *e->cw_model);
     memcpy(sample->value + 1 + e->models, e->cw_speed, e->speeds * sizeof *e->cw_speed);
-    sample->pressure = e->cw_pressure;
+    sample->bounded = e->cw_pressure;
 }
 
-static enum gn_answer fine(void *user_data, const double *u, struct gn_sample *sample)
+static bayesopt_descent_answer fine(void *user_data, const double *u,
+                                    bayesopt_descent_sample *sample)
 {
     struct descent *d = user_data;
     struct search *search = d->search;
     struct evaluation e;
     bool parent = is_parent(d, u);
     if (!parent && d->valued == search->problem->config->iterations)
-        return GN_STOP;
+        return BAYESOPT_DESCENT_STOP;
     d->sample = sample;
     evaluation_start(0, "descent", u, &e);
     int recorded = parent ? 1 : is_recorded(d, u);
@@ -119,17 +130,18 @@ static enum gn_answer fine(void *user_data, const double *u, struct gn_sample *s
         evaluate(search->problem, &e, look, d);
     if (recorded < 0 || (recorded == 0 && !search_step(search, &e, look, d))) {
         d->ok = false;
-        return GN_STOP;
+        return BAYESOPT_DESCENT_STOP;
     }
     d->valued += !parent;
     if (e.failed)
-        return GN_FAILED;
+        return BAYESOPT_DESCENT_FAILED;
     keep_values(&e, sample);
     take_surface(d, e.wetted_area, true, sample);
-    return GN_VALUED;
+    return BAYESOPT_DESCENT_VALUED;
 }
 
-static enum gn_answer coarse(void *user_data, const double *u, struct gn_sample *sample)
+static bayesopt_descent_answer coarse(void *user_data, const double *u,
+                                      bayesopt_descent_sample *sample)
 {
     struct descent *d = user_data;
     struct design design;
@@ -141,27 +153,34 @@ static enum gn_answer coarse(void *user_data, const double *u, struct gn_sample 
         d->ok = core_goes_on(d->search->watch);
     }
     if (!d->ok)
-        return GN_STOP;
+        return BAYESOPT_DESCENT_STOP;
     if (!problem_build(d->base, u, &design))
-        return GN_FAILED;
+        return BAYESOPT_DESCENT_FAILED;
     bool ok =
-        igabem_solve_many(design.body, d->problem.settings, d->coarse, solutions) == IGABEM_OK;
+        igabem_solve_many(design.body, d->problem.n_settings, d->coarse, solutions) == IGABEM_OK;
     if (ok) {
         d->sample = sample;
         ok = look(d, solutions);
         if (ok)
             take_surface(d, nurbs_hull_hydrostatics(design.hull)->wetted_area, false, sample);
-        for (size_t m = 0; m < d->problem.settings; m++)
+        for (size_t m = 0; m < d->problem.n_settings; m++)
             igabem_solution_free(solutions[m]);
     }
     design_free(&design);
-    return ok ? GN_VALUED : GN_FAILED;
+    return ok ? BAYESOPT_DESCENT_VALUED : BAYESOPT_DESCENT_FAILED;
 }
 
-static bool limit(void *user_data, const double *u, double *value)
+static int limit(void *user_data, size_t n, const double *u, double *value)
 {
     struct descent *d = user_data;
-    return limits_evaluate(d->base, d->problem.n, u, value) == 0;
+    return limits_evaluate(d->base, n, u, value);
+}
+
+static double pressure(void *user_data, const double *state, double *gradient)
+{
+    const struct descent *d = user_data;
+    return igabem_pressure_sum(d->points, (const igabem_pressure_sample *)state,
+                               (igabem_pressure_sample *)gradient);
 }
 
 static void show_line(void *user_data, const char *sentence)
@@ -203,42 +222,46 @@ static bool count_points(struct descent *d)
         return true;
     if (igabem_solve(problem->parent.body, &d->coarse[0], &solution) != IGABEM_OK)
         return core_fail("%s", igabem_last_error());
-    bool ok =
-        igabem_pressure_samples(solution, ALONG, AROUND, &d->problem.points, NULL) == IGABEM_OK ||
-        core_fail("%s", igabem_last_error());
+    bool ok = igabem_pressure_samples(solution, ALONG, AROUND, &d->points, NULL) == IGABEM_OK ||
+              core_fail("%s", igabem_last_error());
     igabem_solution_free(solution);
+    d->problem.n_state = POINT * d->points;
+    d->problem.function = pressure;
     return ok;
 }
 
 /* What a setting counts for: objective, confirmation, or another speed. */
-static struct gn_setting weigh(const struct config *config, size_t m)
+static bayesopt_descent_setting weigh(const struct config *config, size_t m)
 {
     if (m > config->models)
-        return (struct gn_setting){config->speeds, 0};
+        return (bayesopt_descent_setting){isnan(config->speeds) ? UNREACHED : config->speeds, 0};
     if (m == 0 || isnan(config->confirm))
-        return (struct gn_setting){0, 1};
-    return (struct gn_setting){1 - config->confirm, config->confirm};
+        return (bayesopt_descent_setting){0, 1};
+    return (bayesopt_descent_setting){1 - config->confirm, config->confirm};
 }
 
 /* setting: room for SETTINGS_MOST, borrowed. */
-static bool start(struct problem *base, struct gn_setting *setting, struct descent *d)
+static bool start(struct problem *base, bayesopt_descent_setting *setting, struct descent *d)
 {
     const struct config *config = base->config;
     d->base = base;
     d->ok = true;
-    d->problem = (struct gn_problem){.n = galv_model_modes(base->model),
-                                     .lower = galv_model_lower(base->model),
-                                     .upper = galv_model_upper(base->model),
-                                     .settings = evaluate_settings(base, d->coarse),
-                                     .setting = setting,
-                                     .pressure = config->pressure,
-                                     .limits = limits_count(config),
-                                     .limit = limit,
-                                     .coarse = coarse,
-                                     .fine = fine,
-                                     .tell = show_line,
-                                     .user_data = d};
-    for (size_t m = 0; m < d->problem.settings; m++) {
+    bayesopt_descent_problem *p = &d->problem;
+    bayesopt_descent_problem_init(p);
+    p->d = galv_model_modes(base->model);
+    p->lower = galv_model_lower(base->model);
+    p->upper = galv_model_upper(base->model);
+    p->n_settings = evaluate_settings(base, d->coarse);
+    p->setting = setting;
+    p->n_residuals = RESIDUALS;
+    p->bound = config->pressure;
+    p->n_limits = limits_count(config);
+    p->limit = limit;
+    p->coarse = coarse;
+    p->fine = fine;
+    p->tell = show_line;
+    p->user_data = d;
+    for (size_t m = 0; m < d->problem.n_settings; m++) {
         coarsen(&d->coarse[m]);
         setting[m] = weigh(config, m);
     }
@@ -247,7 +270,7 @@ static bool start(struct problem *base, struct gn_setting *setting, struct desce
 
 bool descent_run(struct search *search, double *u)
 {
-    struct gn_setting setting[SETTINGS_MOST];
+    bayesopt_descent_setting setting[SETTINGS_MOST];
     char *stop;
     if (!record_get_text(search->record, "stop", &stop))
         return false;
@@ -258,8 +281,9 @@ bool descent_run(struct search *search, double *u)
     struct descent d = {.search = search};
     if (!start(search->problem, setting, &d))
         return false;
-    if (!gn_run(&d.problem, u))
-        return d.ok && core_no_memory();
+    memset(u, 0, d.problem.d * sizeof *u);
+    if (bayesopt_descend(&d.problem, u, NULL) < 0)
+        return d.ok && core_fail("%s: %s", search->problem->config->path, bayesopt_last_error());
     return d.ok &&
            record_put_text(search->record, "stop",
                            d.valued == search->problem->config->iterations ? "budget spent"
@@ -267,7 +291,8 @@ bool descent_run(struct search *search, double *u)
 }
 
 /* The parent alone is valued. */
-static enum gn_answer value_parent(void *user_data, const double *u, struct gn_sample *sample)
+static bayesopt_descent_answer value_parent(void *user_data, const double *u,
+                                            bayesopt_descent_sample *sample)
 {
     struct descent *d = user_data;
     struct evaluation e;
@@ -276,10 +301,10 @@ static enum gn_answer value_parent(void *user_data, const double *u, struct gn_s
     evaluation_start(0, "parent", NULL, &e);
     evaluate_parent(d->base, &e, look, d);
     if (e.failed)
-        return GN_FAILED;
+        return BAYESOPT_DESCENT_FAILED;
     keep_values(&e, sample);
     take_surface(d, e.wetted_area, true, sample);
-    return GN_VALUED;
+    return BAYESOPT_DESCENT_VALUED;
 }
 
 /* Without the constraint of row k: whether there was one. */
@@ -289,25 +314,26 @@ static bool drop(const struct config *config, size_t k, struct config *without)
     return constraints_drop(without, k);
 }
 
-static double least(struct descent *d, const struct gn_model *model, const struct config *config,
+static double least(struct descent *d, bayesopt_descent_model *model, const struct config *config,
                     double *step)
 {
     const struct config *keep = d->base->config;
     d->base->config = config;
-    d->problem.pressure = config->pressure;
-    d->problem.limits = limits_count(config);
-    for (size_t m = 0; m < d->problem.settings; m++) {
-        struct gn_setting *s = (struct gn_setting *)&d->problem.setting[m];
-        *s = weigh(config, m);
-        if (m > config->models && isnan(config->speeds))
-            s->offset = UNREACHED; /* finite: SLSQP computes with it */
-    }
-    double broken = 0, ratio = gn_model_minimise(model, WHOLE_BOX, step, &broken);
+    bayesopt_descent_problem problem = d->problem;
+    bayesopt_descent_setting setting[SETTINGS_MOST];
+    problem.setting = setting;
+    problem.bound = config->pressure;
+    problem.n_limits = limits_count(config);
+    for (size_t m = 0; m < d->problem.n_settings; m++)
+        setting[m] = weigh(config, m);
+    double broken, ratio;
+    bayesopt_status status = bayesopt_descent_model_minimise(
+        model, &problem, NULL, INFINITY, FORECAST_MARGIN, step, &ratio, &broken);
     d->base->config = keep;
-    return broken < FORECAST_OUTSIDE ? ratio : NAN;
+    return !status && broken < FORECAST_OUTSIDE ? ratio : NAN;
 }
 
-static void fill(struct descent *d, const struct gn_model *model, struct forecast *f, double *step)
+static void fill(struct descent *d, bayesopt_descent_model *model, struct forecast *f, double *step)
 {
     struct config other = *d->base->config;
     for (size_t i = 0; i < FORECAST_SHARES && other.models; i++) {
@@ -321,21 +347,25 @@ static void fill(struct descent *d, const struct gn_model *model, struct forecas
 }
 
 /* The model at the original; setting: room for SETTINGS_MOST, borrowed. */
-static bool model_parent(struct problem *problem, struct gn_setting *setting, struct descent *d,
-                         struct gn_model *model)
+static bool model_parent(struct problem *problem, bayesopt_descent_setting *setting,
+                         struct descent *d, bayesopt_descent_model **model)
 {
     if (!start(problem, setting, d))
         return false;
     d->problem.fine = value_parent;
-    return gn_at_parent(&d->problem, model) ||
-           core_fail("%s: the derivatives at the original cannot be had (%s)",
-                     problem->config->path, core_sentence());
+    bayesopt_status status = bayesopt_descent_model_create(&d->problem, NULL, model);
+    if (!status)
+        return true;
+    const char *why = status == BAYESOPT_ERROR_NUMERIC && *core_sentence() ? core_sentence()
+                                                                           : bayesopt_last_error();
+    return core_fail("%s: the derivatives at the original cannot be had (%s)",
+                     problem->config->path, why);
 }
 
 bool forecast_run(struct problem *problem, struct forecast *f)
 {
-    struct gn_setting setting[SETTINGS_MOST];
-    struct gn_model model;
+    bayesopt_descent_setting setting[SETTINGS_MOST];
+    bayesopt_descent_model *model;
     struct descent d = {.search = NULL};
     for (size_t k = 0; k < FORECAST_ROWS; k++)
         f->without[k] = NAN;
@@ -344,9 +374,9 @@ bool forecast_run(struct problem *problem, struct forecast *f)
     double *step = calloc(galv_model_modes(problem->model), sizeof *step);
     bool ok = (step || core_no_memory()) && model_parent(problem, setting, &d, &model);
     if (ok) {
-        fill(&d, &model, f, step);
+        fill(&d, model, f, step);
         f->solves = d.differentiated;
-        gn_leave(&model);
+        bayesopt_descent_model_free(model);
     }
     free(step);
     return ok;
@@ -354,16 +384,17 @@ bool forecast_run(struct problem *problem, struct forecast *f)
 
 /* Where the model promises most about each point of a Latin hypercube: designs unlike each other,
  * all of which keep the limits by the model. The first is that of the whole box. */
-static bool fill_design(struct gn_model *model, size_t n, double *cube, double *u)
+static bool fill_design(const bayesopt_descent_problem *p, bayesopt_descent_model *model, size_t n,
+                        double *cube, double *u)
 {
-    const struct gn_problem *p = model->problem;
     size_t made = 0;
     for (size_t i = 0; i < DRAWS * n && made < n; i++) {
-        double broken;
-        for (size_t k = 0; k < p->n; k++)
-            model->anchor[k] = p->lower[k] + cube[i * p->n + k] * (p->upper[k] - p->lower[k]);
-        if (!isnan(
-                gn_model_minimise(model, i ? DESIGN_RADIUS : WHOLE_BOX, u + made * p->n, &broken)))
+        double *centre = cube + i * p->d, ratio;
+        for (size_t k = 0; k < p->d; k++)
+            centre[k] = p->lower[k] + centre[k] * (p->upper[k] - p->lower[k]);
+        double radius = i ? DESIGN_RADIUS : INFINITY;
+        if (bayesopt_descent_model_minimise(model, NULL, centre, radius, DESIGN_MARGIN,
+                                            u + made * p->d, &ratio, NULL) == BAYESOPT_OK)
             made++;
     }
     return made == n || core_fail("only %zu of %zu initial designs keep the known limits", made, n);
@@ -371,8 +402,8 @@ static bool fill_design(struct gn_model *model, size_t n, double *cube, double *
 
 bool descent_design(struct problem *problem, size_t n, double *u)
 {
-    struct gn_setting setting[SETTINGS_MOST];
-    struct gn_model model;
+    bayesopt_descent_setting setting[SETTINGS_MOST];
+    bayesopt_descent_model *model;
     struct descent d = {.search = NULL};
     bayesopt_design_options options;
     bayesopt_design_options_init(&options);
@@ -385,9 +416,8 @@ bool descent_design(struct problem *problem, size_t n, double *u)
          core_fail("%s", bayesopt_last_error())) &&
         model_parent(problem, setting, &d, &model);
     if (ok) {
-        model.margin = DESIGN_MARGIN;
-        ok = fill_design(&model, n, cube, u);
-        gn_leave(&model);
+        ok = fill_design(&d.problem, model, n, cube, u);
+        bayesopt_descent_model_free(model);
     }
     free(cube);
     return ok;
