@@ -101,4 +101,29 @@ def external_solver():
     assert told["best"]["value"] < told["baseline"]["value"] and told["failed_designs"] == 0
 
 
-{f.__name__: f for f in (series60, dtmb5415_l2sea, own_iges, external_solver)}[case]()
+def better(a, b):
+    return a != b and all(x <= y for x, y in zip(a, b))
+
+
+def wigley_pareto():
+    told = run("wigley_pareto", "--initial", "10", "--iterations", "6", "--jobs", "2")
+    front = [row["values"] for row in told["front"]]
+    assert len(front) >= 4 and not any(better(a, b) for a in front for b in front), front
+    history = json.loads(do("bayesopt", "export", "run/run.db", "--json"))["points"]
+    scale = told["baseline"]["cw"] / history[0]["f"]
+    all_values = [(p["f"] * scale, p["constraints"]["c1"]) for p in history if p["feasible"]]
+    assert len(all_values) == 17 and sum(not any(better(a, b) for a in all_values) for b in all_values) == len(front)
+    # A member by the solver alone; the wetted patch is within reconstruction.tolerance of the hull.
+    options = ("--formulation", "neumann-kelvin", "--elements", "20,6", "--degree", "3", "--length", "1",
+               "--tolerance", "1e-4", "--cutoff", str(told["solver"]["cutoff_angle"]), "--stem-limit", str(told["solver"]["stem_limit"]))
+    for row in (told["front"][0], told["front"][-1]):
+        page = json.loads(do("hullopt", "report", "run", "--design", str(row["id"]), "--out", "member", "--json"))
+        assert page["best"]["id"] == row["id"] and page["verification"] == []
+        for fr, value in zip(("0.316", "0.25"), row["values"]):
+            within(cw("member/best_wetted.json", "--fr", fr, *options), value, 1e-3, "C_w of a member")
+            within(cw("member/best.igs", "--fr", fr, *options), value, 0.15, "C_w of its hull up to the deck")
+    again = subprocess.run(["hullopt", "report", "run", "--design", "3"], capture_output=True, text=True)
+    assert again.returncode == 2 and "--out" in again.stderr
+
+
+{f.__name__: f for f in (series60, wigley_pareto, dtmb5415_l2sea, own_iges, external_solver)}[case]()

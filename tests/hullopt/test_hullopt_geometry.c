@@ -289,6 +289,21 @@ static void test_quantities(void)
     CU_ASSERT_STRING_EQUAL(strtok(text, " "), "weighted");
     CU_ASSERT_STRING_EQUAL(strtok(NULL, " "), "R_t");
     CHECK_RELATIVE(atof(strtok(NULL, " ")), total[1] + 3 * slow[1], 1e-3);
+    c.other[0] = (struct config_objective){QUANTITY_TOTAL, 0.25, false, NULL};
+    c.other[1] = (struct config_objective){QUANTITY_WAVE, NAN, false, NULL};
+    CU_ASSERT_EQUAL(objectives_count(&c), 3);
+    CU_ASSERT_TRUE(objectives_ask_speeds(&c));
+    CHECK_RELATIVE(objectives_value(&c, 0, 4, &e[1], &e[0]), total[1] + 3 * slow[1], 1e-12);
+    CHECK_RELATIVE(objectives_value(&c, 1, 4, &e[1], &e[0]), slow[1], 1e-12);
+    CHECK_RELATIVE(objectives_value(&c, 2, 4, &e[1], &e[0]), wave[1], 1e-12);
+    c.other[0] = (struct config_objective){QUANTITY_PARTICULAR, NAN, false, NULL};
+    CU_ASSERT_FALSE(objectives_ask_speeds(&c));
+    CU_ASSERT_EQUAL(objectives_value(&c, 1, 4, &e[1], &e[0]), 3.3);
+    struct objective o;
+    objectives_describe(&c, 1, &o);
+    CU_ASSERT_STRING_EQUAL(o.name, "wetted surface, m²");
+    objectives_describe(&c, 2, &o);
+    CU_ASSERT_STRING_EQUAL(o.name, "wave resistance, N, at Fr 0.5");
     c.viscosity = 1; /* no correlation line at Re 13 */
     CU_ASSERT_TRUE(isnan(objective_of(&c, 4, &e[1], &e[0])));
 }

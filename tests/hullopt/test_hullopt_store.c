@@ -2,6 +2,7 @@
  * such a record, newer or damaged is refused. */
 #include "check.h"
 #include "cli.h"
+#include "core/front.h"
 #include "core/record.h"
 #include "core/search.h"
 
@@ -23,6 +24,7 @@ static struct config config = {.path = "run.yaml",
                                .pressure = NAN,
                                .speeds = NAN,
                                .confirm = NAN,
+                               .other = {{QUANTITY_NONE}, {QUANTITY_NONE}},
                                .text = "a = 1\n"};
 static struct problem problem = {.config = &config};
 
@@ -329,10 +331,53 @@ static void test_reading(void)
     CU_ASSERT_EQUAL(chmod(closed, 0700), 0);
 }
 
+/* C_w and, raised, the displacement: 4 and 2 are dominated by 1 and 3; 5 would be the best of all
+ * but failed. The set is 6 (1, 1), 3 (2, 2), 1 (3, 3) and the parent (5, 3.5), with ranges of 4 and
+ * 2.5; squares of the distances from (1, 3.5) are 1, 0.4225, 0.29 and, not counted, 1. */
+static void test_front(void)
+{
+    const double cw[6] = {3, 4, 2, 3.5, 0.5, 1}, volume[6] = {3, 2.5, 2, 2.9, 9, 1};
+    const double origin[MODES] = {0, 0};
+    const struct config_objective none = config.other[0];
+    struct record record;
+    struct evaluation e, *list;
+    double u[6 * MODES];
+    uint64_t id[6];
+    size_t n, count, places[7];
+    config.other[0] = (struct config_objective){QUANTITY_DISPLACEMENT, NAN, true, NULL};
+    fresh("front.db", &record);
+    evaluation_start(0, NULL, origin, &e);
+    e.cw = e.objective = 5;
+    e.volume = 3.5;
+    CU_ASSERT_TRUE(record_tell(&record, &e, &e.volume));
+    CU_ASSERT_EQUAL_FATAL(bayesopt_ask(record.bo, 6, u, id), BAYESOPT_OK);
+    for (size_t i = 0; i < 6; i++) {
+        evaluation_start(id[i], NULL, u + i * MODES, &e);
+        e.cw = e.objective = cw[i];
+        e.volume = volume[i];
+        e.failed = i == 4;
+        CU_ASSERT_TRUE(record_tell(&record, &e, &e.volume));
+    }
+    CU_ASSERT_TRUE_FATAL(record_evaluations(&record, &list, &n));
+    CU_ASSERT_TRUE_FATAL(front_of(&record, n, list, &count, places));
+    CU_ASSERT_EQUAL_FATAL(count, 4);
+    const size_t expected[4] = {6, 3, 1, 0};
+    CU_ASSERT_EQUAL(memcmp(places, expected, sizeof expected), 0);
+    const struct evaluation *best;
+    CU_ASSERT_TRUE(front_best(&record, &config, 4, n, list, &best));
+    CU_ASSERT_PTR_EQUAL(best, &list[1]);
+    config.other[0] = none;
+    CU_ASSERT_TRUE(front_best(&record, &config, 4, n, list, &best));
+    CU_ASSERT_PTR_EQUAL(best, &list[6]);
+    free(list);
+    record_close(&record);
+}
+
 static const struct check_case cases[] = {
     {"texts and arrays", test_texts_and_arrays},
     {"latent space and settings", test_origin},
     {"evaluations", test_evaluations},
+    {"the Pareto set", test_front},
     {"verification rows and sessions", test_verifications_and_sessions},
     {"foreign, newer and incomplete files", test_foreign},
     {"a damaged file", test_damaged},

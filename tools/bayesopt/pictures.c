@@ -136,67 +136,41 @@ bool picture_slices(struct plot *plot, bayesopt *bo, const struct names *names)
     return good;
 }
 
-/* Where the trials lie in the plane of two objectives; 0 is f, k > 0 an outcome. */
-static double objective_value(const bayesopt_point *p, size_t k)
-{
-    return k ? p->constraints[k - 1] : p->f;
-}
-
-static void draw_plane(struct plot *plot, const bayesopt *bo, const size_t *rows, size_t n,
-                       struct plot_frame *f, size_t a, size_t b)
+/* The objectives of a point: f, then the last of its outcomes. */
+static struct plot_design design_of(const bayesopt *bo, const struct names *names, size_t row)
 {
     bayesopt_point p;
-    f->x.low = f->y.low = INFINITY;
-    f->x.high = f->y.high = -INFINITY;
-    for (size_t i = 0; !bayesopt_get(bo, i, &p); i++) {
-        double x = p.state == BAYESOPT_STATE_DONE ? objective_value(&p, a) : (double)NAN;
-        double y = p.state == BAYESOPT_STATE_DONE ? objective_value(&p, b) : (double)NAN;
-        plot_include(&f->x, 1, &x);
-        plot_include(&f->y, 1, &y);
-    }
-    plot_nice(&f->x, 5);
-    plot_nice(&f->y, 5);
-    plot_axes(plot, f);
-    for (size_t i = 0; !bayesopt_get(bo, i, &p); i++)
-        if (p.state == BAYESOPT_STATE_DONE && !p.outside)
-            plot_mark(plot, plot_x(f, objective_value(&p, a)), plot_y(f, objective_value(&p, b)),
-                      p.feasible ? PLOT_DOT : PLOT_RING, 2.6, PLOT_PALE, "");
-    for (size_t i = 0; i < n && !bayesopt_get(bo, rows[i], &p); i++) {
-        char note[40];
-        snprintf(note, sizeof note, "%llu", (unsigned long long)p.id);
-        plot_mark(plot, plot_x(f, objective_value(&p, a)), plot_y(f, objective_value(&p, b)),
-                  PLOT_DOT, 3.4, PLOT_OPTIMUM, note);
-    }
+    struct plot_design d = {.value = {NAN, NAN, NAN}};
+    size_t objectives = bayesopt_objective_count(bo);
+    if (bayesopt_get(bo, row, &p) || p.state != BAYESOPT_STATE_DONE || p.outside)
+        return d;
+    d.value[0] = p.f;
+    for (size_t k = 1; k < objectives; k++)
+        d.value[k] = p.constraints[names->m - objectives + k];
+    d.infeasible = !p.feasible;
+    snprintf(d.note, sizeof d.note, "%llu", (unsigned long long)p.id);
+    return d;
 }
 
 bool picture_front(struct plot *plot, bayesopt *bo, const struct names *names)
 {
-    static const struct plot_legend legend[] = {
-        {"Pareto set", {PLOT_OPTIMUM, 0, NULL}, PLOT_DOT},
-        {"evaluated", {PLOT_PALE, 0, NULL}, PLOT_DOT},
-        {"outside the limits", {PLOT_PALE, 0, NULL}, PLOT_RING}};
-    size_t objectives = bayesopt_objective_count(bo), n, first = names->m + 2 - objectives;
-    if (objectives < 2)
+    size_t all = bayesopt_count(bo), n = 0;
+    struct plot_front front = {.n = all, .objectives = bayesopt_objective_count(bo)};
+    if (front.objectives < 2)
         return cli_refuse("--front: there is one objective");
-    size_t *rows = malloc((bayesopt_count(bo) + 1) * sizeof *rows), panel = 0;
-    size_t panels = objectives == 2 ? 1 : 3;
-    bool good = rows || cli_refuse("out of memory");
+    size_t *rows = malloc((all + 1) * sizeof *rows);
+    struct plot_design *designs = calloc(all + 1, sizeof *designs);
+    bool good = (rows && designs) || cli_refuse("out of memory");
     good = good && (!bayesopt_pareto(bo, &n, rows) || cli_refuse("%s", bayesopt_last_error()));
-    good = good && plot_open(plot, WIDTH, panels == 1 ? 620 : HEIGHT, "Pareto set");
-    if (good)
-        plot_legend(plot, 60, 18, false, 3, legend);
-    for (size_t a = 0; a < objectives && good; a++)
-        for (size_t b = a + 1; b < objectives; b++, panel++) {
-            double width = (double)WIDTH / (double)panels;
-            struct plot_frame f = {.left = width * (double)panel + 70,
-                                   .top = 40,
-                                   .width = width - 90,
-                                   .height = plot->height - 96};
-            size_t ka = a ? first + a - 1 : 0, kb = first + b - 1;
-            f.x.label = ka ? names->constraints[ka - 1] : "f";
-            f.y.label = names->constraints[kb - 1];
-            draw_plane(plot, bo, rows, n, &f, ka, kb);
-        }
+    for (size_t i = 0; good && i < all; i++)
+        designs[i] = design_of(bo, names, i);
+    for (size_t i = 0; good && i < n; i++)
+        designs[rows[i]].member = true;
+    front.designs = designs;
+    for (size_t k = 0; k < front.objectives; k++)
+        front.labels[k] = k ? names->constraints[names->m - front.objectives + k] : "f";
+    good = good && plot_front(plot, WIDTH, front.objectives == 2 ? 620 : HEIGHT, &front);
     free(rows);
+    free(designs);
     return good;
 }

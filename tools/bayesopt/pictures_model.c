@@ -1,18 +1,12 @@
 /* Pictures of how good the model is, which variables matter, and where the good points lie. */
 #include "pictures.h"
+#include "plot/ship.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    SQUARE = 560,
-    GRID = 41,
-    MOST_PAIRS = 3,
-    MOST_AXES = 12,
-    MOST_BARS = 30,
-    INDEX_SAMPLES = 1024
-};
+enum { SQUARE = 560, GRID = 41, MOST_PAIRS = 3, MOST_AXES = 12, INDEX_SAMPLES = 1024 };
 
 static bool library_failed(void)
 {
@@ -21,35 +15,12 @@ static bool library_failed(void)
 
 bool picture_loo(struct plot *plot, bayesopt *bo, const struct names *names)
 {
-    static const struct plot_pen equal = {PLOT_MUTED, 1, "4 3"}, bar = {PLOT_PALE, 1, NULL};
     size_t n, most = bayesopt_count(bo) + 1;
     double *told = malloc(3 * most * sizeof *told), *mean = told + most, *sd = mean + most;
     (void)names;
     bool good = told || cli_refuse("out of memory");
     good = good && (!bayesopt_leave_one_out(bo, &n, told, mean, sd) || library_failed());
-    good = good && plot_open(plot, SQUARE, SQUARE, "Leave-one-out predictions");
-    if (good) {
-        struct plot_frame f = {.left = 74, .top = 20, .width = SQUARE - 94, .height = SQUARE - 80};
-        f.x = f.y = (struct plot_axis){.low = INFINITY, .high = -INFINITY};
-        plot_include(&f.x, n, told);
-        plot_include(&f.x, n, mean);
-        plot_nice(&f.x, 5);
-        f.y = f.x;
-        f.x.label = "told";
-        f.y.label = "expected from the others";
-        plot_axes(plot, &f);
-        plot_clip(plot, &f);
-        plot_line(plot, plot_x(&f, f.x.low), plot_y(&f, f.x.low), plot_x(&f, f.x.high),
-                  plot_y(&f, f.x.high), equal);
-        for (size_t i = 0; i < n; i++) {
-            double x = plot_x(&f, told[i]);
-            plot_line(plot, x, plot_y(&f, mean[i] - 2 * sd[i]), x, plot_y(&f, mean[i] + 2 * sd[i]),
-                      bar);
-        }
-        for (size_t i = 0; i < n; i++)
-            plot_mark(plot, plot_x(&f, told[i]), plot_y(&f, mean[i]), PLOT_DOT, 3, PLOT_BLUE, NULL);
-        plot_unclip(plot);
-    }
+    good = good && plot_leave_one_out(plot, SQUARE, n, told, mean, sd);
     free(told);
     return good;
 }
@@ -59,51 +30,17 @@ static bool find_indices(bayesopt *bo, size_t d, double *first, double *total, s
 {
     if (bayesopt_sensitivity(bo, 0, INDEX_SAMPLES, first, total))
         return library_failed();
-    for (size_t j = 0; j < d; j++)
-        order[j] = j;
-    for (size_t j = 1; j < d; j++)
-        for (size_t k = j; k > 0 && total[order[k]] > total[order[k - 1]]; k--) {
-            size_t kept = order[k];
-            order[k] = order[k - 1];
-            order[k - 1] = kept;
-        }
+    plot_order(d, total, order);
     return true;
 }
 
 bool picture_indices(struct plot *plot, bayesopt *bo, const struct names *names)
 {
-    static const struct plot_legend legend[] = {{"alone", {PLOT_BLUE, 8, NULL}, PLOT_LINE},
-                                                {"with others", {PLOT_PALE, 8, NULL}, PLOT_LINE}};
-    size_t d = names->d, shown = d < MOST_BARS ? d : MOST_BARS, *order = malloc(d * sizeof *order);
-    double *first = malloc(2 * d * sizeof *first), *total = first + d, row = 24;
+    size_t d = names->d, *order = malloc(d * sizeof *order);
+    double *first = malloc(2 * d * sizeof *first), *total = first + d;
     bool good = (first && order) || cli_refuse("out of memory");
     good = good && find_indices(bo, d, first, total, order) &&
-           plot_open(plot, PICTURE_WIDTH, 90 + row * (double)shown, "Sobol' indices");
-    if (good) {
-        struct plot_frame f = {
-            .left = 190, .top = 34, .width = PICTURE_WIDTH - 220, .height = row * (double)shown};
-        plot_legend(plot, f.left, 18, false, 2, legend);
-        f.x = (struct plot_axis){.low = 0, .high = 1, .label = "share of the model's variance"};
-        for (int tick = 0; tick <= 5; tick++) {
-            double x = plot_x(&f, 0.2 * tick);
-            plot_line(plot, x, f.top, x, f.top + f.height, (struct plot_pen){PLOT_GRID, 1, NULL});
-            plot_text(plot, x, f.top + f.height + 16, 11, PLOT_MIDDLE, PLOT_MUTED, "%.1f",
-                      0.2 * tick);
-        }
-        plot_text(plot, f.left + f.width / 2, f.top + f.height + 36, 12, PLOT_MIDDLE, PLOT_MUTED,
-                  "%s", f.x.label);
-        for (size_t i = 0; i < shown; i++) {
-            double y = f.top + row * ((double)i + 0.5);
-            double whole = fmin(fmax(total[order[i]], 0), 1);
-            double alone = fmin(fmax(first[order[i]], 0), whole);
-            plot_line(plot, f.left, y, plot_x(&f, whole), y,
-                      (struct plot_pen){PLOT_PALE, 12, NULL});
-            plot_line(plot, f.left, y, plot_x(&f, alone), y,
-                      (struct plot_pen){PLOT_BLUE, 12, NULL});
-            plot_text(plot, f.left - 8, y + 4, 12, PLOT_END, PLOT_INK, "%.24s",
-                      names->variables[order[i]]);
-        }
-    }
+           plot_indices(plot, PICTURE_WIDTH, d, first, total, order, names->variables);
     free(first);
     free(order);
     return good;

@@ -18,6 +18,31 @@ static const struct setting_word QUANTITIES[] = {{"wave-coefficient", QUANTITY_C
                                                  {"wave-resistance", QUANTITY_WAVE},
                                                  {"total-resistance", QUANTITY_TOTAL},
                                                  {NULL, 0}};
+#define OF_GRID(k) QUANTITY_PARTICULAR + (k)
+static const struct setting_word OTHERS[] = {{"none", QUANTITY_NONE},
+                                             {"wave-coefficient", QUANTITY_CW},
+                                             {"wave-resistance", QUANTITY_WAVE},
+                                             {"total-resistance", QUANTITY_TOTAL},
+                                             {"pressure-coefficient", QUANTITY_PRESSURE},
+                                             {"displacement", QUANTITY_DISPLACEMENT},
+                                             {"command", QUANTITY_COMMAND},
+                                             {"surface", OF_GRID(0)},
+                                             {"beam", OF_GRID(1)},
+                                             {"lcb", OF_GRID(2)},
+                                             {"km", OF_GRID(3)},
+                                             {"gm", OF_GRID(4)},
+                                             {"midship", OF_GRID(5)},
+                                             {"waterplane", OF_GRID(6)},
+                                             {"transom_breadth", OF_GRID(7)},
+                                             {"transom_depth", OF_GRID(8)},
+                                             {"waterlines", OF_GRID(9)},
+                                             {"sections", OF_GRID(10)},
+                                             {"radius", OF_GRID(11)},
+                                             {"waterlines_energy", OF_GRID(12)},
+                                             {"sections_energy", OF_GRID(13)},
+                                             {NULL, 0}};
+static const struct setting_word OWN_SPEED[] = {{"flow.froude", NAN}, {NULL, 0}};
+
 static const struct setting_word SPACES[] = {{"latent", 0}, {"parameters", 1}, {NULL, 0}};
 
 static const char *formulation(int value)
@@ -49,6 +74,21 @@ static const char *method(int value)
 #define PARTICULAR(place, name, meaning)                                                           \
     ROW("constraints." name, NUMBER, particular[(size_t)(place)], meaning, SETTING_FROM(-10, 1e3), \
         .n_least = 2, .n_most = 2, .words = NONE, .otherwise = "none")
+
+/* One that stands beside objective.quantity: designs of the Pareto set are looked for. */
+#define OBJECTIVE(name, place)                                                                     \
+    ROW(name ".quantity", CHOICE, other[place].quantity,                                           \
+        "another objective, so that the Pareto set is looked for: a quantity as above, or a "      \
+        "figure of the hull by the name of its constraint",                                        \
+        .words = OTHERS, .otherwise = "none"),                                                     \
+        ROW(name ".froude", NUMBER, other[place].froude,                                           \
+            "its speed, flow.froude or one of verification.froude", SETTING_INSIDE(0, 10),         \
+            .words = OWN_SPEED, .otherwise = "flow.froude"),                                       \
+        ROW(name ".maximise", SWITCH, other[place].maximise, "it is raised instead of lowered",    \
+            .otherwise = "false"),                                                                 \
+        ROW(name ".key", TEXT, other[place].key,                                                   \
+            "of a command's number, what stands before it in what objective.command prints",       \
+            .otherwise = NULL)
 
 static const struct setting ROWS[] = {
     ROW("name", TEXT, name, "title of the report", .otherwise = "Hull form optimisation"),
@@ -154,6 +194,8 @@ static const struct setting ROWS[] = {
         "what stands before the number; by default it is the last one printed", .otherwise = NULL),
     ROW("objective.timeout", NUMBER, judge.timeout, "s after which the design has failed",
         SETTING_ABOVE(0), .otherwise = "3600"),
+    OBJECTIVE("objective_2", 0),
+    OBJECTIVE("objective_3", 1),
     ROW("solver.formulation", CHOICE, solver.formulation, "what is solved", .choice = formulation),
     ROW("solver.refine", INTEGER, solver.refine, "parts of every knot span", SETTING_FROM(1, 16),
         .otherwise = "1"),
@@ -269,6 +311,63 @@ static void check_objective(struct settings_source *source, const struct config 
                           method_row(c->method)->name);
 }
 
+/* Whether a speed is one at which every design is, or can be, solved. */
+static bool is_speed(const struct config *c, double froude)
+{
+    bool known = isnan(froude) || froude == c->solver.froude;
+    for (size_t j = 0; j < c->verify_froudes && !known; j++)
+        known = froude == c->verify_froude[j];
+    return known;
+}
+
+static void check_other(struct settings_source *source, const struct config *c, const char *name,
+                        const struct config_objective *o)
+{
+    char key[40];
+    snprintf(key, sizeof key, "%s.quantity", name);
+    const struct method_row *method = method_row(c->method);
+    if (o->quantity == QUANTITY_NONE) {
+        if (!isnan(o->froude) || o->maximise || o->key)
+            settings_complain(source, key, "is missing: what the others of %s are about", name);
+        return;
+    }
+    if (method->kind != METHOD_GAUSSIAN_PROCESS && method->kind != METHOD_DESIGN)
+        settings_complain(
+            source, key,
+            "is not for %s, which lowers one number: expected bayesian, random or lhs "
+            "in search.method",
+            method->name);
+    if (c->strategy == BAYESOPT_STRATEGY_LOCAL)
+        settings_complain(source, key,
+                          "is looked for over the whole box, not by search.strategy "
+                          "local");
+    if (o->quantity == QUANTITY_COMMAND && (!c->judge.command || !o->key))
+        settings_complain(source, key, "is command, which needs objective.command and %s.key",
+                          name);
+    if (o->quantity == QUANTITY_PRESSURE &&
+        !igabem_formulation_info(c->solver.formulation)->pressure)
+        settings_complain(source, key, "is by pressure, which %s has not",
+                          igabem_formulation_name(c->solver.formulation));
+    if (o->quantity == OF_GRID(4) && isnan(c->kg))
+        settings_complain(source, key, "is gm, which needs constraints.kg");
+    snprintf(key, sizeof key, "%s.froude", name);
+    if (o->quantity > QUANTITY_TOTAL && !isnan(o->froude))
+        settings_complain(source, key, "is for a resistance, which %s.quantity is not", name);
+    else if (!is_speed(c, o->froude))
+        settings_complain(source, key,
+                          "is %g, expected flow.froude or one of verification.froude, where every "
+                          "design is solved then",
+                          o->froude);
+}
+
+static void check_others(struct settings_source *source, const struct config *c)
+{
+    check_other(source, c, "objective_2", &c->other[0]);
+    check_other(source, c, "objective_3", &c->other[1]);
+    if (c->other[1].quantity != QUANTITY_NONE && c->other[0].quantity == QUANTITY_NONE)
+        settings_complain(source, "objective_3.quantity", "is given without objective_2.quantity");
+}
+
 static bool is_field(const char *name, size_t length, const char *field)
 {
     return strlen(field) == length && strncmp(name, field, length) == 0;
@@ -377,6 +476,7 @@ static void check(struct settings_source *source, void *target)
     const struct config *c = target;
     check_commands(source, c);
     check_objective(source, c);
+    check_others(source, c);
     for (size_t i = 0; i < c->models; i++)
         if (c->model[i] == IGABEM_FORMULATION_AUTO || c->model[i] == c->solver.formulation)
             settings_complain(source, "search.models", "is %s, expected others than %s",

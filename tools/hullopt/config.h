@@ -14,8 +14,18 @@
 #include <stdint.h>
 #include <stdio.h>
 
-/* What is lowered: objective.quantity. */
-enum quantity { QUANTITY_CW, QUANTITY_WAVE, QUANTITY_TOTAL };
+/* What is lowered: objective.quantity is one of the first three; what follows is for a second and a
+ * third objective alone. */
+enum quantity {
+    QUANTITY_NONE = -1,
+    QUANTITY_CW,
+    QUANTITY_WAVE,
+    QUANTITY_TOTAL,
+    QUANTITY_PRESSURE,     /* C_w by pressure */
+    QUANTITY_DISPLACEMENT, /* volume */
+    QUANTITY_COMMAND,      /* another number that objective.command prints */
+    QUANTITY_PARTICULAR    /* and those of core/particulars.h that are of one place */
+};
 
 enum { CONFIG_PARAMETERS_MOST = 100, CONFIG_PATH = 600 /* of a file of a command */ };
 enum { CONFIG_FROUDE_MOST = 8, CONFIG_MODELS_MOST = 5, CONFIG_PLACES_MOST = 40, PARTICULARS = 19 };
@@ -28,6 +38,15 @@ struct config_command {
     char *file;     /* in the folder: the hull that it writes, or reads */
     char *key;      /* before the number that it prints; NULL: the last one */
     double timeout; /* s */
+};
+
+/* A second or a third objective. */
+enum { OBJECTIVES_MOST = 3 };
+struct config_objective {
+    int quantity;
+    double froude; /* of a resistance; NAN: flow.froude */
+    bool maximise;
+    char *key; /* before the number of the command */
 };
 
 struct config {
@@ -57,7 +76,8 @@ struct config {
     double kg;                           /* centre of gravity above the deepest point, m */
     size_t stations, hard_points, boxes; /* numbers below: x; x, z; x, x, y, z, z */
     double station[CONFIG_PLACES_MOST], hard_point[CONFIG_PLACES_MOST], box[CONFIG_PLACES_MOST];
-    int quantity;                  /* one of enum quantity */
+    int quantity; /* one of enum quantity */
+    struct config_objective other[OBJECTIVES_MOST - 1];
     double viscosity, form_factor; /* of its friction: m^2/s, k */
     size_t weights; /* of flow.froude and each of verify_froude; 0: flow.froude alone */
     double weight[1 + CONFIG_FROUDE_MOST];

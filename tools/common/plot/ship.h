@@ -76,6 +76,30 @@ struct plot_history {
 void plot_history(struct plot *plot, double left, double top, double width, double height,
                   const struct plot_history *history);
 
+/* Designs by two or three objectives, one pair against each other in each panel. */
+enum { PLOT_OBJECTIVES = 3 };
+struct plot_design {
+    double value[PLOT_OBJECTIVES];
+    bool member, infeasible; /* of the Pareto set; outside of the limits */
+    char note[24];
+};
+struct plot_front {
+    size_t n, objectives;
+    const struct plot_design *designs;
+    const double *original, *shown; /* values of two designs to be marked; NULL: none */
+    const char *labels[PLOT_OBJECTIVES];
+};
+/* These open the sheet. */
+bool plot_front(struct plot *plot, double width, double height, const struct plot_front *front);
+/* Predicted against told values, with two standard deviations of each prediction. */
+bool plot_leave_one_out(struct plot *plot, double side, size_t n, const double *told,
+                        const double *mean, const double *sd);
+/* Sobol' indices of variables, alone and with others, in an order. */
+bool plot_indices(struct plot *plot, double width, size_t n, const double *first,
+                  const double *total, const size_t *order, char *const *names);
+/* The places of n values, the greatest first. */
+void plot_order(size_t n, const double *value, size_t *order);
+
 /* Wave elevations on nx x ny points, y fast, NAN inside the hull; a field that begins at y >= 0 is
  * one half. waterplane: n_edge pairs x,y of its half, from end to end. */
 struct plot_waves {

@@ -2,6 +2,7 @@
 #include "cli/commands.h"
 #include "core/constraints.h"
 #include "core/descent.h"
+#include "core/objective.h"
 #include "core/search.h"
 #include "json_result.h"
 
@@ -116,6 +117,14 @@ static void print_solver(const struct plan *p)
            p->parent.cw, p->parent.geometry_seconds + p->parent.solve_seconds);
     if (p->config.judge.command)
         printf("%-16s%s: %.6g\n", "objective", p->config.judge.command, p->parent.value);
+    for (size_t k = 0; k < objectives_count(&p->config) && objectives_count(&p->config) > 1; k++) {
+        struct objective described;
+        objectives_describe(&p->config, k, &described);
+        printf("%-16s%s%s: %.5g\n", k ? "" : "objectives", described.label,
+               described.maximise ? ", raised" : "",
+               described.scale * objectives_value(&p->config, k, problem_length(&p->problem),
+                                                  &p->parent, &p->parent));
+    }
     for (size_t k = 0; k < constraints_count(); k++) {
         struct constraint_figures f;
         constraints_figures(&p->config, k, &p->parent, &p->parent, &f);

@@ -17,8 +17,9 @@ struct options {
     size_t n_latent, n_parameters;
     char **folders; /* of the words, for a command that takes any number */
     size_t n_folders;
-    bool json;    /* the result on standard output instead of the figures */
-    double start; /* of the command, cli_seconds() */
+    size_t design; /* that a report is about; 0: the best */
+    bool json;     /* the result on standard output instead of the figures */
+    double start;  /* of the command, cli_seconds() */
 };
 
 /* One design, for an optimiser of one's own. */

@@ -134,6 +134,22 @@ static double objective_ratio(const struct asked *a)
            a->parent.cw;
 }
 
+/* Of several, by name and in SI units. */
+static json_t *objectives(const struct asked *a)
+{
+    json_t *array = json_array();
+    struct objective described;
+    for (size_t k = 0; k < objectives_count(&a->config); k++) {
+        json_t *row = json_object();
+        objectives_describe(&a->config, k, &described);
+        json_result_set(row, "name", json_string(described.name));
+        put(row, "value",
+            objectives_value(&a->config, k, problem_length(&a->problem), &a->design, &a->parent));
+        json_result_append(array, row);
+    }
+    return array;
+}
+
 static json_t *result(const struct asked *a)
 {
     const struct evaluation *e = &a->design;
@@ -143,6 +159,8 @@ static json_t *result(const struct asked *a)
     json_result_set(o, "reason", json_string(e->reason));
     json_result_set(o, "allowed", json_boolean(allowed));
     put(o, "objective", objective_ratio(a));
+    if (objectives_count(&a->config) > 1)
+        json_result_set(o, "objectives", objectives(a));
     if (a->config.judge.command)
         put(o, "value", e->value);
     put(o, "cw", e->cw);

@@ -31,6 +31,7 @@ static const char HELP[] =
     "report  writes all files of DIR but run.db again, also of a run that is not finished; into\n"
     "        another folder by --out. Of one that may not be written it prints the figures "
     "alone.\n"
+    "        With --design the files are about another design, as one of the Pareto set.\n"
     "status  tells how far the run in DIR is, also while it is at work. Writes nothing.\n"
     "compare  sets runs of one problem by several methods and seeds beside each other: best "
     "designs\n"
@@ -96,6 +97,9 @@ static const struct setting REPORT[] = {
     HEADING("report"),
     ROW(TEXT, path, "folder of the run", .option = "DIR", .required = true),
     ROW(TEXT, out, "folder for the files; by default that of the run", .option = "out"),
+    ROW(COUNT, design,
+        "number of a design that the files are about instead of the best; with --out",
+        .option = "design", .otherwise = "0"),
     JSON,
 };
 static const struct setting STATUS[] = {

@@ -82,7 +82,7 @@ static bool report(const struct options *options, struct problem *problem,
                    const struct record *record)
 {
     struct results results;
-    if (!say(results_read(problem, record, &results)))
+    if (!say(results_read(problem, record, 0, &results)))
         return false;
     bool ok = outputs_write(&results, options->out, options->json);
     results_free(&results);
@@ -163,7 +163,7 @@ int run_command(const struct options *options)
 }
 
 /* The hulls and figures of a record, built again. */
-static bool restore(const char *path, struct record *record, struct config *config,
+static bool restore(const char *path, size_t design, struct record *record, struct config *config,
                     struct problem *problem, struct results *results)
 {
     struct origin origin;
@@ -177,7 +177,7 @@ static bool restore(const char *path, struct record *record, struct config *conf
         origin.model = NULL;
         origin.ends = NULL;
         problem->solver = origin.solver;
-        ok = (ok && results_read(problem, record, results)) ||
+        ok = (ok && results_read(problem, record, design, results)) ||
              cli_refuse("%s: %s", path, core_sentence());
         if (!ok) {
             problem_free(problem);
@@ -203,6 +203,8 @@ static const char *choose_folder(const char *folder, const char *out)
 int report_command(const struct options *options)
 {
     const char *folder = options->path, *out = options->out;
+    if (options->design && !out)
+        return cli_usage("--design needs --out: the files of %s are about its best", folder);
     struct record record;
     struct config config;
     struct problem problem;
@@ -212,7 +214,7 @@ int report_command(const struct options *options)
     bool ok = path != NULL;
     if (ok && access(path, F_OK) != 0)
         ok = cli_refuse("%s: no such file; is %s the folder of a run?", path, folder);
-    if (ok && restore(path, &record, &config, &problem, &results)) {
+    if (ok && restore(path, options->design, &record, &config, &problem, &results)) {
         ok = (!out || folder_open(&made, out)) &&
              outputs_write(&results, choose_folder(folder, out), options->json);
         folder_close(&made);

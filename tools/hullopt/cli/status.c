@@ -1,7 +1,7 @@
 #include "cli.h"
 #include "cli/commands.h"
 #include "cli/folder.h"
-#include "core/constraints.h"
+#include "core/front.h"
 #include "core/objective.h"
 #include "core/record.h"
 #include "core/search.h"
@@ -19,7 +19,7 @@ struct status {
     struct evaluation *list;
     const struct evaluation *best; /* of the list; NULL: nothing is evaluated */
     char *stop;                    /* of the search; NULL: it goes on */
-    size_t n, failed, budget, sessions, rows;
+    size_t n, failed, budget, sessions, rows, front;
     double seconds, left; /* of the search; NAN: unknown, or over */
     long holder;          /* process that works on it; 0: none */
 };
@@ -46,7 +46,11 @@ static bool read_figures(struct status *s)
         !record_seconds(&s->record, &s->sessions, &s->seconds))
         return false;
     free(rows);
-    s->best = s->n ? outcome_best(&s->config, s->n, s->list) : NULL;
+    if (s->n && !front_best(&s->record, &s->config, s->origin.length, s->n, s->list, &s->best))
+        return false;
+    if (objectives_count(&s->config) > 1 &&
+        bayesopt_pareto(s->record.bo, &s->front, NULL) != BAYESOPT_OK)
+        return core_fail("%s", bayesopt_last_error());
     for (size_t i = 0; i < s->n; i++)
         s->failed += s->list[i].failed;
     s->budget = search_budget(&s->config);
@@ -89,6 +93,8 @@ static bool print_json(const struct status *s)
     json_result_set(o, "failed", json_integer((json_int_t)s->failed));
     set_number(o, "objective_parent", s->n ? s->list[0].objective : NAN);
     set_number(o, "objective_best", s->best ? s->best->objective : NAN);
+    if (objectives_count(&s->config) > 1)
+        json_result_set(o, "front", json_integer((json_int_t)s->front));
     json_result_set(o, "verified", json_integer((json_int_t)s->rows));
     json_result_set(o, "sessions", json_integer((json_int_t)s->sessions));
     set_number(o, "seconds", s->seconds);
@@ -110,6 +116,9 @@ static bool print_text(const struct status *s)
         printf("%-16s%s, %+.1f %% from the parent's\n", "best", best,
                100 * (s->best->objective / s->list[0].objective - 1));
     }
+    if (objectives_count(&s->config) > 1)
+        printf("%-16s%zu designs, the above is the nearest to the best of each\n", "Pareto set",
+               s->front);
     printf("%-16s%zu rows\n%-16s%.0f s in %zu sessions\n", "verification", s->rows, "time",
            s->seconds, s->sessions);
     if (!isnan(s->left))

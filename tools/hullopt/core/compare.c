@@ -1,6 +1,7 @@
 #include "core/compare.h"
 
 #include "core/constraints.h"
+#include "core/objective.h"
 #include "core/record.h"
 
 #include <math.h>
@@ -81,6 +82,8 @@ static bool read_course(const char *path, struct course *r)
     bool ok = (known || core_fail("%s: the configuration is damaged", path)) &&
               record_evaluations(&record, &list, &n) &&
               ((n > 0 && !list[0].failed) || core_fail("%s: no design is on record", path)) &&
+              (objectives_count(&config) == 1 ||
+               core_fail("%s: it has several objectives, of which no design is the best", path)) &&
               set_texts(&config, galv_model_modes(origin.model), r) && follow(&config, n, list, r);
     free(list);
     if (known)

@@ -337,15 +337,17 @@ size_t outcome_bounds(const struct config *config, double lower[OUTCOME_MOST],
     return n;
 }
 
-void outcome_ratios(const struct config *config, const struct evaluation *e,
-                    const struct evaluation *parent, double ratio[OUTCOME_MOST])
+size_t outcome_ratios(const struct config *config, const struct evaluation *e,
+                      const struct evaluation *parent, double ratio[OUTCOME_MOST])
 {
+    size_t n = 0;
     for (size_t k = 0; k < ROWS; k++) {
         const struct constraint c = row(k);
         size_t count = is_outcome(&c, config) ? count_ratios(&c, config) : 0;
         for (size_t i = 0; i < count; i++)
-            *ratio++ = outcome(&c, config, e, parent, i);
+            ratio[n++] = outcome(&c, config, e, parent, i);
     }
+    return n;
 }
 
 bool outcome_allowed(const struct config *config, const struct evaluation *e,

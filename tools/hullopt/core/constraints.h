@@ -26,9 +26,9 @@ bool limits_kept(const struct config *config, const struct evaluation *e,
  * returns how many there are. */
 size_t outcome_bounds(const struct config *config, double lower[OUTCOME_MOST],
                       double upper[OUTCOME_MOST]);
-/* Writes as many ratios of e to the parent. */
-void outcome_ratios(const struct config *config, const struct evaluation *e,
-                    const struct evaluation *parent, double ratio[OUTCOME_MOST]);
+/* Writes as many ratios of e to the parent, and returns how many. */
+size_t outcome_ratios(const struct config *config, const struct evaluation *e,
+                      const struct evaluation *parent, double ratio[OUTCOME_MOST]);
 /* Whether a design can be the best: evaluated, and within its bounds. The parent always is. */
 bool outcome_allowed(const struct config *config, const struct evaluation *e,
                      const struct evaluation *parent);

@@ -3,6 +3,7 @@
 #include "cli.h"
 #include "core/constraints.h"
 #include "core/external.h"
+#include "core/objective.h"
 #include "core/particulars.h"
 #include "core/remote.h"
 
@@ -34,6 +35,8 @@ void evaluation_start(uint64_t id, const char *phase, const double *u, struct ev
         e->cw_speed[i] = NAN;
     for (size_t i = 0; i < PARTICULARS; i++)
         e->particular[i][0] = e->particular[i][1] = NAN;
+    for (size_t i = 0; i + 1 < OBJECTIVES_MOST; i++)
+        e->told[i] = NAN;
 }
 
 /* Least share of its half breadth that a wet point keeps. */
@@ -128,12 +131,16 @@ static size_t by_all_models(const struct config *config, const igabem_options *o
     return 1 + config->models;
 }
 
+bool evaluate_asks_speeds(const struct config *config)
+{
+    return config->weights || !isnan(config->speeds) || objectives_ask_speeds(config);
+}
+
 size_t evaluate_settings(const struct problem *problem, igabem_options settings[SETTINGS_MOST])
 {
     const struct config *config = problem->config;
     size_t n = by_all_models(config, &problem->solver, settings);
-    bool speeds = config->weights || !isnan(config->speeds);
-    for (size_t i = 0; i < problem->speeds && speeds; i++)
+    for (size_t i = 0; i < problem->speeds && evaluate_asks_speeds(config); i++)
         n += by_all_models(config, &problem->speed[i], settings + n);
     return n;
 }
@@ -169,7 +176,7 @@ static void finish(struct problem *problem, const struct design *design, const d
     double built = cli_seconds();
     ok = ok && (here ? solve(problem, design->body, viewer, e) : solve_remotely(problem, e));
     if (ok && here && problem->config->judge.command)
-        ok = external_judge(problem->config, e->u, design->hull, &e->value);
+        ok = external_judge(problem->config, e->u, design->hull, &e->value, e->told);
     e->geometry_seconds = built - start;
     e->solve_seconds = cli_seconds() - built;
     e->failed = !ok;

@@ -18,10 +18,11 @@ struct evaluation {
     const char *phase; /* "parent", "initial", "global", ... */
     const double *u;   /* latent point, borrowed */
     bool failed;
-    char reason[REASON_SIZE]; /* of the failure, "skin: ..."; else "" */
-    double objective;         /* what the search lowers: objective_of() */
-    double value;             /* by objective.command */
-    char made[CONFIG_PATH];   /* file of the hull by parameters.command, or "" */
+    char reason[REASON_SIZE];         /* of the failure, "skin: ..."; else "" */
+    double objective;                 /* what the search lowers: objective_of() */
+    double value;                     /* by objective.command */
+    double told[OBJECTIVES_MOST - 1]; /* by the same, of the other objectives */
+    char made[CONFIG_PATH];           /* file of the hull by parameters.command, or "" */
     double cw, cw_pressure, rw, share_beyond_cutoff, condition;
     size_t models; /* of cw_model: by the other formulations of search.models */
     double cw_model[CONFIG_MODELS_MOST];
@@ -46,8 +47,10 @@ struct evaluation {
 void evaluation_start(uint64_t id, const char *phase, const double *u,
                       struct evaluation *evaluation);
 
+/* Whether the configuration bounds or weighs C_w at verification.froude, or lowers one there. */
+bool evaluate_asks_speeds(const struct config *config);
 /* Settings of the solver that a design is valued with, in the order of the figures above: cw,
- * cw_model, and cw_speed when the configuration bounds C_w there or weighs it. Returns how many. */
+ * cw_model, and cw_speed when that is so. Returns how many. */
 size_t evaluate_settings(const struct problem *problem, igabem_options settings[SETTINGS_MOST]);
 
 /* Looks at the solutions, one for each of these settings, before they are freed; false, with a

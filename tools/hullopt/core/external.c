@@ -100,25 +100,35 @@ bool external_make(const struct config *config, const double *u, char path[CONFI
                                                        config->maker.file, strerror(errno)));
 }
 
-/* The number in what the command printed in its folder. */
-static bool read_value(const struct config_command *c, const char *folder, double *value)
+/* A number in what the command printed. */
+static bool read_value(const char *text, const char *key, double *value)
 {
     char reason[MOST_REASON];
-    char *text = program_read(folder, "stdout");
-    if (!text)
-        return core_fail("objective: stdout: %s", strerror(errno));
-    bool ok = c->key ? result_find(text, c->key, RESULT_EQUAL, 1, value, reason, sizeof reason)
-                     : result_last(text, value, reason, sizeof reason);
+    bool ok = key ? result_find(text, key, RESULT_EQUAL, 1, value, reason, sizeof reason)
+                  : result_last(text, value, reason, sizeof reason);
     if (ok && !isfinite(*value)) {
         snprintf(reason, sizeof reason, "%g is no finite number", *value);
         ok = false;
     }
-    free(text);
     return ok || core_fail("objective: %s", reason);
 }
 
+static bool read_values(const struct config *config, const char *folder, double *value,
+                        double others[OBJECTIVES_MOST - 1])
+{
+    char *text = program_read(folder, "stdout");
+    if (!text)
+        return core_fail("objective: stdout: %s", strerror(errno));
+    bool ok = read_value(text, config->judge.key, value);
+    for (size_t k = 0; k + 1 < OBJECTIVES_MOST; k++)
+        if (config->other[k].quantity == QUANTITY_COMMAND)
+            ok = ok && read_value(text, config->other[k].key, &others[k]);
+    free(text);
+    return ok;
+}
+
 bool external_judge(const struct config *config, const double *u, const nurbs_hull *hull,
-                    double *value)
+                    double *value, double others[OBJECTIVES_MOST - 1])
 {
     char here[PATH_MAX], folder[PATH_MAX], path[CONFIG_PATH];
     double *x = values_of(config, u);
@@ -127,7 +137,7 @@ bool external_judge(const struct config *config, const double *u, const nurbs_hu
               in_folder(folder, config->judge.file, path) &&
               (nurbs_patches_write(nurbs_hull_full(hull), path) == NURBS_OK ||
                core_fail("objective: %s", nurbs_last_error())) &&
-              run(&config->judge, &fields, folder) && read_value(&config->judge, folder, value);
+              run(&config->judge, &fields, folder) && read_values(config, folder, value, others);
     free(x);
     return ok;
 }

@@ -10,8 +10,9 @@
 
 /* Makes the hull of the original moved by u (NULL: the original) and tells its file. */
 bool external_make(const struct config *config, const double *u, char path[CONFIG_PATH]);
-/* The number that the hull is worth. u: as above, for commands that ask for parameters too. */
+/* The number that the hull is worth, and those of the other objectives. u: as above, for commands
+ * that ask for parameters too. */
 bool external_judge(const struct config *config, const double *u, const nurbs_hull *hull,
-                    double *value);
+                    double *value, double others[OBJECTIVES_MOST - 1]);
 
 #endif

@@ -2,6 +2,7 @@
 
 #include "core/constraints.h"
 #include "core/descent.h"
+#include "core/front.h"
 #include "core/search.h"
 #include "core/verify.h"
 #include "core/waves.h"
@@ -82,10 +83,14 @@ bool optimise_resume(struct problem *problem, const char *path)
 bool optimise_set_best(struct problem *problem, const struct record *record,
                        const struct evaluation *best)
 {
-    return (!problem->config->maker.command ||
-            record_get_points(record, best->id, galv_model_points(problem->model),
-                              &problem->found)) &&
-           problem_set_best(problem, best->u);
+    bool command = problem->config->maker.command != NULL;
+    if (command &&
+        !record_get_points(record, best->id, galv_model_points(problem->model), &problem->found))
+        return false;
+    if (command && !problem->found && !problem->is_solved)
+        return core_fail("the hull of design %llu is not on record; the command left it in %s",
+                         (unsigned long long)best->id, best->made);
+    return problem_set_best(problem, best->u);
 }
 
 static bool build_best(struct problem *problem, const struct record *record, double *u)
@@ -93,7 +98,8 @@ static bool build_best(struct problem *problem, const struct record *record, dou
     struct evaluation *list;
     size_t n;
     bool ok = record_evaluations(record, &list, &n);
-    const struct evaluation *best = ok ? outcome_best(problem->config, n, list) : NULL;
+    const struct evaluation *best = NULL;
+    ok = ok && front_best(record, problem->config, problem_length(problem), n, list, &best);
     if (best)
         memcpy(u, best->u, galv_model_modes(problem->model) * sizeof *u);
     if (best && best->id != 0)

@@ -102,8 +102,6 @@ static bool make_points(struct problem *problem, const double *u, double *points
     char path[CONFIG_PATH];
     if (problem->found)
         memcpy(points, problem->found, 3 * count_points(problem) * sizeof *points);
-    else if (!problem->is_solved)
-        return core_fail("the hull that the command made is not on record");
     else if (!external_make(problem->config, u, path))
         return false;
     else

@@ -277,26 +277,25 @@ static bool get_model(const struct record *record, galv_model **model)
 
 static const char INITIAL[] = "initial", ENDS[] = "parameters.ends";
 
+static void name_points(uint64_t id, char name[40])
+{
+    snprintf(name, 40, "points.%llu", (unsigned long long)id);
+}
+
 bool record_put_points(struct record *record, uint64_t id, size_t n, const double *points)
 {
-    const double number = (double)id;
-    return record_put_array(record, "best.points", n, 3, points) &&
-           record_put_array(record, "best.points.of", 1, 1, &number);
+    char name[40];
+    name_points(id, name);
+    return record_put_array(record, name, n, 3, points);
 }
 
 bool record_get_points(const struct record *record, uint64_t id, size_t n, double **points)
 {
     size_t rows, columns;
-    double *of;
-    if (!record_get_array(record, "best.points.of", &rows, &columns, &of))
-        return false;
-    bool known = of && *of == (double)id;
-    free(of);
-    *points = NULL;
-    if (!known)
-        return true;
-    return record_get_array(record, "best.points", &rows, &columns, points) &&
-           (rows * columns == 3 * n || core_fail("'best.points' is damaged"));
+    char name[40];
+    name_points(id, name);
+    return record_get_array(record, name, &rows, &columns, points) &&
+           (!*points || rows * columns == 3 * n || core_fail("'%s' is damaged", name));
 }
 
 bool record_put_origin(struct record *record, const struct problem *problem)
@@ -486,18 +485,24 @@ static size_t unpack_list(const char *name, size_t most, const bayesopt_point *p
     return n;
 }
 
-static const char MODEL[] = "cw_model", SPEED[] = "cw_speed", PARTICULAR[] = "particular";
+static const char MODEL[] = "cw_model", SPEED[] = "cw_speed", PARTICULAR[] = "particular",
+                  TOLD[] = "told";
 
 bool record_tell(struct record *record, struct evaluation *e, const double *ratio)
 {
     enum { NUMBERS = 2 * PARTICULARS };
-    bayesopt_attribute attributes[MEMBERS_MOST + CONFIG_MODELS_MOST + SPEEDS_MOST + NUMBERS];
-    char names[CONFIG_MODELS_MOST + SPEEDS_MOST + NUMBERS][NAME_SIZE];
+    enum { LISTS = CONFIG_MODELS_MOST + SPEEDS_MOST + NUMBERS + OBJECTIVES_MOST };
+    bayesopt_attribute attributes[MEMBERS_MOST + LISTS];
+    char names[LISTS][NAME_SIZE];
+    size_t told = OBJECTIVES_MOST - 1;
+    while (told && isnan(e->told[told - 1]))
+        told--;
     size_t n = pack(LENGTH(EVALUATION), EVALUATION, e, attributes);
     n += pack_list(MODEL, e->models, e->cw_model, names, attributes + n);
     n += pack_list(SPEED, e->speeds, e->cw_speed, names + e->models, attributes + n);
     n += pack_list(PARTICULAR, NUMBERS, e->particular[0], names + e->models + e->speeds,
                    attributes + n);
+    n += pack_list(TOLD, told, e->told, names + e->models + e->speeds + NUMBERS, attributes + n);
     bool first = bayesopt_count(record->bo) == 0; /* the parent keeps 0 */
     const bayesopt_result result = {.f = e->failed ? NAN : e->objective,
                                     .constraints = ratio,
@@ -510,13 +515,12 @@ bool record_tell(struct record *record, struct evaluation *e, const double *rati
 }
 
 /* Those without a value, a place that is not asked for, are not on record. */
-static void unpack_particulars(const bayesopt_point *point, double value[PARTICULARS][2])
+static void unpack_numbers(const char *name, size_t n, const bayesopt_point *point, double *value)
 {
     char text[NAME_SIZE];
-    for (size_t i = 0; i < 2 * PARTICULARS; i++) {
-        number_name(PARTICULAR, i, text);
-        value[i / 2][i % 2] =
-            bayesopt_attribute_number(point->n_attributes, point->attributes, text);
+    for (size_t i = 0; i < n; i++) {
+        number_name(name, i, text);
+        value[i] = bayesopt_attribute_number(point->n_attributes, point->attributes, text);
     }
 }
 
@@ -544,7 +548,8 @@ static bool read_evaluation(const bayesopt_point *point, bool first, struct eval
         return core_fail("%s: 'cw' is damaged", what);
     e->models = unpack_list(MODEL, CONFIG_MODELS_MOST, point, e->cw_model);
     e->speeds = unpack_list(SPEED, SPEEDS_MOST, point, e->cw_speed);
-    unpack_particulars(point, e->particular);
+    unpack_numbers(TOLD, OBJECTIVES_MOST - 1, point, e->told);
+    unpack_numbers(PARTICULAR, 2 * PARTICULARS, point, e->particular[0]);
     return true;
 }
 

@@ -51,7 +51,7 @@ bool record_get_array(const struct record *record, const char *name, size_t *row
                       double **values);
 
 /* The grid points of a command's hull, so that it can be built again without the command; NULL: not
- * those of that evaluation. */
+ * on record. */
 bool record_put_points(struct record *record, uint64_t id, size_t n, const double *points);
 bool record_get_points(const struct record *record, uint64_t id, size_t n, double **points);
 

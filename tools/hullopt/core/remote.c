@@ -25,15 +25,29 @@ enum { DOFS = 3, VOLUME = 4, AREA = 5 };
 
 static size_t count_speeds(const struct config *config)
 {
-    bool asked = config->weights || !isnan(config->speeds);
-    return asked ? config->verify_froudes * (1 + config->models) : 0;
+    return evaluate_asks_speeds(config) ? config->verify_froudes * (1 + config->models) : 0;
+}
+
+/* The numbers of objective.command, of which there may be none. */
+static size_t list_told(const struct config *config, struct evaluation *e,
+                        double *told[OBJECTIVES_MOST])
+{
+    size_t n = 0;
+    if (config->judge.command)
+        told[n++] = &e->value;
+    for (size_t k = 0; k + 1 < OBJECTIVES_MOST; k++)
+        if (config->other[k].quantity == QUANTITY_COMMAND)
+            told[n++] = &e->told[k];
+    return n;
 }
 
 void remote_sizes(const struct config *config, size_t sizes[3])
 {
+    struct evaluation e;
+    double *told[OBJECTIVES_MOST];
     sizes[0] = 1 + config->models + count_speeds(config);
-    sizes[1] = igabem_formulation_info(config->solver.formulation)->pressure +
-               (size_t)(config->judge.command != NULL);
+    sizes[1] =
+        igabem_formulation_info(config->solver.formulation)->pressure + list_told(config, &e, told);
     sizes[2] = REMOTE_FIGURES;
 }
 
@@ -44,14 +58,16 @@ static double *figure(const struct evaluation *e, size_t k)
 
 void remote_write(const struct config *config, const struct evaluation *e, double *output)
 {
-    size_t sizes[3];
+    struct evaluation all = *e;
+    double *told[OBJECTIVES_MOST];
+    size_t sizes[3], n = list_told(config, &all, told);
     remote_sizes(config, sizes);
     *output++ = e->cw;
     memcpy(output, e->cw_model, e->models * sizeof *output);
     memcpy(output + e->models, e->cw_speed, e->speeds * sizeof *output);
     output += sizes[0] - 1;
-    if (config->judge.command)
-        *output++ = e->value;
+    for (size_t k = 0; k < n; k++)
+        *output++ = *told[k];
     if (igabem_formulation_info(config->solver.formulation)->pressure)
         *output++ = e->cw_pressure;
     for (size_t k = 0; k < REMOTE_FIGURES; k++) {
@@ -87,8 +103,10 @@ static bool take(const struct remote *remote, const struct umbridge *server, con
     memcpy(e->cw_model, output + 1, e->models * sizeof *output);
     memcpy(e->cw_speed, output + 1 + e->models, e->speeds * sizeof *output);
     output += server->outputs[0];
-    if (remote->judges)
-        e->value = *output++;
+    double *told[OBJECTIVES_MOST];
+    size_t n = list_told(remote->config, e, told);
+    for (size_t k = 0; k < n; k++)
+        *told[k] = *output++;
     if (output < more)
         e->cw_pressure = *output;
     for (size_t k = 0; k < DOFS; k++)
@@ -113,8 +131,7 @@ static bool open_one(struct umbridge *server, const char *url, const struct prob
 
 bool remote_open(struct remote *remote, const struct problem *problem, const char *urls)
 {
-    *remote =
-        (struct remote){.urls = strdup(urls), .judges = problem->config->judge.command != NULL};
+    *remote = (struct remote){.urls = strdup(urls), .config = problem->config};
     json_t *identity = identity_of(problem);
     char *rest = remote->urls, *url;
     bool ok = (rest || core_no_memory()) && identity;

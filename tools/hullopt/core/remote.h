@@ -13,8 +13,8 @@ struct remote {
     size_t n, first; /* how many, and whom the next design is given to */
     uint64_t lost;   /* who is not asked any more */
     struct umbridge server[REMOTE_MOST];
-    char *urls;  /* cut into pieces */
-    bool judges; /* the servers run objective.command */
+    char *urls; /* cut into pieces */
+    const struct config *config;
 };
 
 /* Looks for the model of the problem at each of "URL,URL,...". remote_close() in any case. */
@@ -32,10 +32,10 @@ bool remote_learn(struct remote *remote, const struct evaluation *e,
                   const struct core_watch *watch);
 
 /* What a server answers, in three vectors: C_w in the order of evaluate_settings(); what
- * objective.command told, where there is one, and C_w by pressure, where the formulation has it;
- * the figures below, -1 for one that has no value.
+ * objective.command told, where there is one, for each objective, and C_w by pressure, where the
+ * formulation has it; the figures below, -1 for one that has no value.
  */
-enum { REMOTE_FIGURES = 6, REMOTE_SIZE = SETTINGS_MOST + 1 + REMOTE_FIGURES };
+enum { REMOTE_FIGURES = 6, REMOTE_SIZE = SETTINGS_MOST + 1 + OBJECTIVES_MOST + REMOTE_FIGURES };
 void remote_sizes(const struct config *config, size_t sizes[3]);
 void remote_write(const struct config *config, const struct evaluation *e, double *output);
 

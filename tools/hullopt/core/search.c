@@ -43,6 +43,11 @@ bool search_open(struct problem *problem, const char *path, struct record *recor
     options.n_constraints = outcome_bounds(config, lower, upper);
     options.constraint_lower = lower;
     options.constraint_upper = upper;
+    options.n_objectives = objectives_count(config);
+    bool maximise[OBJECTIVES_MOST - 1];
+    for (size_t k = 0; k + 1 < OBJECTIVES_MOST; k++)
+        maximise[k] = config->other[k].maximise;
+    options.maximise_others = maximise;
     *record = (struct record){0};
     if (bayesopt_create(galv_model_modes(model), galv_model_lower(model), galv_model_upper(model),
                         &options, &record->bo) == BAYESOPT_OK &&
@@ -55,10 +60,28 @@ bool search_open(struct problem *problem, const char *path, struct record *recor
 
 static bool tell(struct search *s, struct evaluation *e)
 {
-    e->objective = objective_of(s->problem->config, problem_length(s->problem), e, &s->parent);
-    double ratio[OUTCOME_MOST];
-    outcome_ratios(s->problem->config, e, &s->parent, ratio);
-    return record_tell(s->record, e, ratio);
+    const struct config *config = s->problem->config;
+    double length = problem_length(s->problem), told[OUTCOME_MOST + OBJECTIVES_MOST];
+    e->objective = objective_of(config, length, e, &s->parent);
+    size_t n = outcome_ratios(config, e, &s->parent, told);
+    for (size_t k = 1; k < objectives_count(config); k++)
+        told[n++] = objectives_value(config, k, length, e, &s->parent);
+    return record_tell(s->record, e, told);
+}
+
+/* What the original has no value of would make of every design a failed one. */
+static bool check_others(const struct search *s)
+{
+    const struct config *config = s->problem->config;
+    struct objective o;
+    for (size_t k = 1; k < objectives_count(config); k++) {
+        objectives_describe(config, k, &o);
+        double value =
+            objectives_value(config, k, problem_length(s->problem), &s->parent, &s->parent);
+        if (!isfinite(value))
+            return core_fail("objective_%zu: the original has no %s", k + 1, o.name);
+    }
+    return true;
 }
 
 /* The parent is u = 0: told to the search before anything is asked. */
@@ -97,7 +120,7 @@ static bool begin(struct search *s)
                        s->parent.value);
     else if (isnan(objective_of(config, problem_length(s->problem), &s->parent, &s->parent)))
         ok = core_fail("%s: objective.quantity: no ITTC-57 friction at Re <= 1000", config->hull);
-    ok = ok && tell(s, &s->parent);
+    ok = ok && check_others(s) && tell(s, &s->parent);
     s->best = s->parent.cw;
     s->done = 1;
     s->parent.u = NULL;
@@ -107,17 +130,20 @@ static bool begin(struct search *s)
 
 void search_show(const struct search *s, const char *what)
 {
-    char detail[200], best[40];
-    size_t all = search_budget(s->problem->config);
+    char detail[240], best[40], front[40] = "";
+    size_t members, all = search_budget(s->problem->config);
     objective_print(s->problem->config, problem_length(s->problem), s->best, &s->parent, best,
                     sizeof best);
-    snprintf(detail, sizeof detail, "%zu of %zu, %zu failed, best %s (%+.1f %%)%s%s", s->done, all,
-             s->failed, best, 100 * (s->best / s->parent.cw - 1), what ? ", " : "",
+    if (objectives_count(s->problem->config) > 1 &&
+        bayesopt_pareto(s->record->bo, &members, NULL) == BAYESOPT_OK)
+        snprintf(front, sizeof front, ", %zu in the Pareto set", members);
+    snprintf(detail, sizeof detail, "%zu of %zu, %zu failed, best %s (%+.1f %%)%s%s%s", s->done,
+             all, s->failed, best, 100 * (s->best / s->parent.cw - 1), front, what ? ", " : "",
              what ? what : "");
     core_show(s->watch, SEARCH, (double)s->done / (double)all, detail);
 }
 
-/* Of the best hull that a command made so far. */
+/* Of a command's hull that may be asked for: the best so far, or any of several objectives'. */
 static bool keep_points(struct search *s, const struct evaluation *e)
 {
     size_t n = galv_model_points(s->problem->model);
@@ -137,10 +163,11 @@ static bool settle(struct search *s, struct evaluation *e)
         return false;
     s->done++;
     s->failed += e->failed;
-    if (!outcome_allowed(s->problem->config, e, &s->parent) || !(e->objective < s->best))
+    if (!outcome_allowed(s->problem->config, e, &s->parent))
         return true;
-    s->best = e->objective;
-    return !*e->made || keep_points(s, e);
+    bool wanted = e->objective < s->best || objectives_count(s->problem->config) > 1;
+    s->best = fmin(s->best, e->objective);
+    return !*e->made || !wanted || keep_points(s, e);
 }
 
 bool search_step(struct search *s, struct evaluation *e, evaluate_look look, void *user_data)

@@ -109,8 +109,7 @@ static void verdict(FILE *out, const struct results *r)
     if (r->n_rows == 0)
         tone = "some";
     fprintf(out, "<div class=\"verdict %s\">", tone);
-    plot_escape(out, r->n_rows ? v->statement
-                               : "The run is not finished: the optimum has not been verified yet.");
+    plot_escape(out, results_statement(r));
     fputs("</div>\n", out);
 }
 
@@ -126,7 +125,9 @@ void report_head(FILE *out, const struct results *r)
     fprintf(out, "</h1>\n<p class=\"sub\">hullopt %s · Fr %g · %s · length %.4g m%s</p>\n",
             TOOL_VERSION, config->solver.froude,
             igabem_formulation_name(r->problem->solver.formulation), problem_length(r->problem),
-            r->complete ? "" : " · run not finished");
+            r->chosen     ? " · one design of the run"
+            : r->complete ? ""
+                          : " · run not finished");
     verdict(out, r);
     cards(out, r);
 }

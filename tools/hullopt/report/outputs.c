@@ -3,6 +3,7 @@
 #include "cli.h"
 #include "cli/folder.h"
 #include "core/constraints.h"
+#include "core/objective.h"
 #include "json_result.h"
 
 #include <errno.h>
@@ -80,12 +81,34 @@ static void print_duration(const char *label, double seconds)
         printf("%-22s%d min %02d s\n", label, (int)(seconds / 60), (int)fmod(seconds, 60));
 }
 
+static void print_front(const struct results *r)
+{
+    const size_t objectives = objectives_count(r->problem->config);
+    struct objective o;
+    if (objectives == 1)
+        return;
+    printf("%-22s%zu designs, %llu is the one below\n", "Pareto set", r->n_front,
+           (unsigned long long)r->best->id);
+    for (size_t k = 0; k < objectives; k++) {
+        double low = INFINITY, high = -INFINITY;
+        objectives_describe(r->problem->config, k, &o);
+        for (size_t i = 0; i < r->n_front; i++) {
+            double value = results_objective(r, k, &r->evaluations[r->front[i]]);
+            low = fmin(low, value);
+            high = fmax(high, value);
+        }
+        printf("  %-32s%.5g to %.5g, original %.5g, here %.5g\n", o.label, low, high,
+               results_objective(r, k, r->baseline), results_objective(r, k, r->best));
+    }
+}
+
 static bool print_figures(const struct results *r, const char *folder)
 {
     struct results_times times = results_times(r);
     printf("%-22s%zu of %zu parameters, %.2f %% of the variance\n", "latent variables",
            galv_model_modes(r->problem->model), galv_model_parameters(r->problem->model),
            100 * galv_model_retained(r->problem->model));
+    print_front(r);
     if (r->problem->config->judge.command)
         printf("%-22s%.6g, original %.6g, %+.1f %%\n", "objective", r->best->value,
                r->baseline->value, 100 * (r->best->value / r->baseline->value - 1));
@@ -105,8 +128,7 @@ static bool print_figures(const struct results *r, const char *folder)
     printf("%-22s%.2f s: geometry %.2f, solve %.2f; proposing %.2f\n", "one evaluation",
            times.evaluation, times.geometry, times.solve, times.propose);
     print_duration("total time", r->seconds);
-    printf("%-22s%s\n", "verification",
-           r->n_rows ? r->verdict.statement : "not done yet: the run is not finished");
+    printf("%-22s%s\n", "verification", results_statement(r));
     if (folder)
         printf("%-22s%s/report.html\n", "report", folder);
     return cli_printed() == CLI_OK;

@@ -89,6 +89,7 @@ static void wave_section(FILE *out, const struct results *r)
 void report_write(FILE *out, const struct results *r)
 {
     report_head(out, r);
+    report_front(out, r);
     history_section(out, r);
     hull_section(out, r);
     wave_section(out, r);

@@ -8,6 +8,8 @@
 
 /* Doctype, style, title, the key figures and the verdict. */
 void report_head(FILE *out, const struct results *results);
+/* The Pareto set; nothing of one objective. */
+void report_front(FILE *out, const struct results *results);
 void report_particulars(FILE *out, const struct results *results);
 void report_failures(FILE *out, const struct results *results);
 void report_verification(FILE *out, const struct results *results);

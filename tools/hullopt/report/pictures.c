@@ -3,6 +3,7 @@
 #include "cli.h"
 #include "constants.h"
 #include "core/constraints.h"
+#include "core/objective.h"
 #include "plot/ship.h"
 
 #include <math.h>
@@ -50,6 +51,36 @@ void draw_history(FILE *out, const struct results *r)
         plot_embed(&plot, out);
     }
     free(trials);
+}
+
+void draw_front(FILE *out, const struct results *r)
+{
+    enum { HEIGHT = 400 };
+    struct plot plot;
+    struct objective o[OBJECTIVES_MOST];
+    double marked[2][OBJECTIVES_MOST];
+    struct plot_design *designs = cli_needed(calloc(r->n + 1, sizeof *designs));
+    struct plot_front front = {
+        r->n, objectives_count(r->problem->config), designs, marked[0], marked[1], {NULL}};
+    for (size_t k = 0; k < front.objectives; k++) {
+        objectives_describe(r->problem->config, k, &o[k]);
+        front.labels[k] = o[k].label;
+        marked[0][k] = results_objective(r, k, r->baseline);
+        marked[1][k] = results_objective(r, k, r->best);
+        for (size_t i = 0; i < r->n; i++)
+            designs[i].value[k] = results_objective(r, k, &r->evaluations[i]);
+    }
+    for (size_t i = 0; i < r->n; i++) {
+        designs[i].infeasible =
+            !outcome_allowed(r->problem->config, &r->evaluations[i], r->baseline);
+        snprintf(designs[i].note, sizeof designs[i].note, "%llu",
+                 (unsigned long long)r->evaluations[i].id);
+    }
+    for (size_t i = 0; i < r->n_front; i++)
+        designs[r->front[i]].member = true;
+    if (plot_front(&plot, FULL, HEIGHT, &front))
+        plot_embed(&plot, out);
+    free(designs);
 }
 
 static struct plot_hull hull_of(const struct results *r, int which, const nurbs_surface **surface)

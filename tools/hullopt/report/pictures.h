@@ -7,6 +7,8 @@
 
 #include <stdio.h>
 
+/* Designs by their objectives. */
+void draw_front(FILE *out, const struct results *results);
 void draw_history(FILE *out, const struct results *results);
 /* Lines plans of both hulls, one over the other. */
 void draw_lines(FILE *out, const struct results *results);

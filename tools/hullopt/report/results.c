@@ -1,6 +1,7 @@
 #include "report/results.h"
 
 #include "core/constraints.h"
+#include "core/front.h"
 #include "core/objective.h"
 #include "core/optimise.h"
 
@@ -14,24 +15,47 @@ const nurbs_hull *results_hull(const struct results *r, int which)
     return (which ? problem_best(r->problem) : &r->problem->parent)->hull;
 }
 
-static bool read_evaluations(const struct record *record, struct results *r)
+/* The design of an id instead of the best. */
+static bool choose(size_t design, struct results *r)
 {
+    size_t i = 1;
+    while (i < r->n && r->evaluations[i].id != design)
+        i++;
+    if (i == r->n)
+        return core_fail("design %zu is not on record", design);
+    if (r->evaluations[i].failed)
+        return core_fail("design %zu has failed: %s", design, r->evaluations[i].reason);
+    r->chosen = r->best != &r->evaluations[i];
+    r->best = &r->evaluations[i];
+    return true;
+}
+
+static bool read_evaluations(const struct record *record, size_t design, struct results *r)
+{
+    const struct config *config = r->problem->config;
     if (!record_evaluations(record, &r->evaluations, &r->n))
         return false;
     if (r->n == 0 || r->evaluations[0].id != 0)
         return core_fail("nothing has been evaluated yet");
     r->baseline = r->evaluations;
-    r->best = outcome_best(r->problem->config, r->n, r->evaluations);
+    r->front = malloc(r->n * sizeof *r->front);
+    if (!r->front)
+        return core_no_memory();
+    if ((objectives_count(config) > 1 &&
+         !front_of(record, r->n, r->evaluations, &r->n_front, r->front)) ||
+        !front_best(record, config, problem_length(r->problem), r->n, r->evaluations, &r->best))
+        return false;
     for (size_t i = 0; i < r->n; i++)
         r->failed += r->evaluations[i].failed;
-    return r->best || core_fail("the parent is recorded as a failure: %s", r->baseline->reason);
+    if (!r->best)
+        return core_fail("the parent is recorded as a failure: %s", r->baseline->reason);
+    return !design || choose(design, r);
 }
 
 static bool read_parameters(const struct record *record, struct results *r)
 {
     size_t one, n;
     double *residual;
-    r->residual = NAN;
     if (!record_get_array(record, "best.parameters", &one, &r->n_parameters, &r->parameters) ||
         !record_get_array(record, "best.residual", &one, &n, &residual))
         return false;
@@ -54,26 +78,49 @@ static void tell_of_command(struct results *r)
              100 * (r->best->value / r->baseline->value - 1), of_cw);
 }
 
-bool results_read(struct problem *problem, const struct record *record, struct results *r)
+/* What the run did with its best. */
+static bool read_verification(const struct record *record, struct results *r)
 {
-    *r = (struct results){.problem = problem};
-    bool ok = read_evaluations(record, r) &&
+    return record_verifications(record, &r->rows, &r->n_rows) &&
+           waves_read(record, false, &r->waves[0]) && waves_read(record, true, &r->waves[1]) &&
+           read_parameters(record, r);
+}
+
+const char *results_statement(const struct results *r)
+{
+    return r->n_rows   ? r->verdict.statement
+           : r->chosen ? "A design chosen from the record: no other model has verified its gain."
+                       : "The run is not finished: the optimum has not been verified yet.";
+}
+
+bool results_read(struct problem *problem, const struct record *record, size_t design,
+                  struct results *r)
+{
+    *r = (struct results){.problem = problem, .residual = NAN};
+    bool ok = read_evaluations(record, design, r) &&
               (r->best == r->baseline || problem->best.hull ||
                optimise_set_best(problem, record, r->best)) &&
               record_get_text(record, "stop", &r->stop) &&
-              record_verifications(record, &r->rows, &r->n_rows) &&
-              waves_read(record, false, &r->waves[0]) && waves_read(record, true, &r->waves[1]) &&
-              read_parameters(record, r) && record_seconds(record, &r->sessions, &r->seconds);
+              (r->chosen || read_verification(record, r)) &&
+              record_seconds(record, &r->sessions, &r->seconds);
     if (!ok) {
         results_free(r);
         return false;
     }
     verdict_reach(r->rows, r->n_rows, &r->verdict);
-    if (problem->config->judge.command)
+    if (problem->config->judge.command && r->n_rows)
         tell_of_command(r);
     r->complete = r->stop && r->n_rows > 0 && r->waves[0].elevation &&
                   (r->waves[1].elevation || r->best == r->baseline);
     return true;
+}
+
+double results_objective(const struct results *r, size_t k, const struct evaluation *e)
+{
+    const struct config *config = r->problem->config;
+    struct objective o;
+    objectives_describe(config, k, &o);
+    return o.scale * objectives_value(config, k, problem_length(r->problem), e, r->baseline);
 }
 
 void results_free(struct results *r)
@@ -81,6 +128,7 @@ void results_free(struct results *r)
     for (int k = 0; k < 2; k++)
         free(r->waves[k].elevation);
     free(r->evaluations);
+    free(r->front);
     free(r->rows);
     free(r->parameters);
     free(r->stop);

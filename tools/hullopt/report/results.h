@@ -14,6 +14,8 @@ struct results {
     struct evaluation *evaluations;
     size_t n, failed;
     const struct evaluation *baseline, *best; /* of evaluations */
+    bool chosen;                              /* by somebody: nothing verifies that design */
+    size_t *front, n_front;                   /* places in evaluations of the Pareto set */
     struct verification *rows;
     size_t n_rows;
     struct verdict verdict;
@@ -25,12 +27,20 @@ struct results {
     size_t sessions;
 };
 
-/* Builds the best design of the problem unless it is built. Borrows problem and record. */
-bool results_read(struct problem *problem, const struct record *record, struct results *results);
+/* Builds the design that the results are about unless it is built: that of an id, or of 0 the best.
+ * Borrows problem and record. */
+bool results_read(struct problem *problem, const struct record *record, size_t design,
+                  struct results *results);
 void results_free(struct results *results);
+
+/* Value k of a design as it is shown: objectives_value() times the scale of objective k. */
+double results_objective(const struct results *results, size_t k, const struct evaluation *e);
 
 /* Hull of the parent (0) and of the best (1). */
 const nurbs_hull *results_hull(const struct results *results, int which);
+
+/* What the verification says, or why there is none. */
+const char *results_statement(const struct results *results);
 
 /* Total resistance of the parent and of the best, N: objective_total_resistance(). */
 void results_total_resistance(const struct results *results, double total[2]);

@@ -1,5 +1,6 @@
 #include "cli.h"
 #include "core/constraints.h"
+#include "core/objective.h"
 #include "json_result.h"
 #include "report/agreement.h"
 #include "report/outputs.h"
@@ -54,6 +55,36 @@ static json_t *evaluation(const struct results *r, const struct evaluation *e)
     put(o, "simplification_bound", e->bound);
     json_result_set(o, "latent", array(galv_model_modes(r->problem->model), e->u));
     return o;
+}
+
+static json_t *values(const struct results *r, const struct evaluation *e)
+{
+    const struct config *config = r->problem->config;
+    double list[OBJECTIVES_MOST];
+    size_t n = objectives_count(config);
+    for (size_t k = 0; k < n; k++)
+        list[k] = objectives_value(config, k, problem_length(r->problem), e, r->baseline);
+    return array(n, list);
+}
+
+/* Of several objectives: what they are, and the designs of the Pareto set. */
+static void put_front(json_t *o, const struct results *r)
+{
+    struct objective described;
+    json_t *names = json_array(), *list = json_array();
+    for (size_t k = 0; k < objectives_count(r->problem->config); k++) {
+        objectives_describe(r->problem->config, k, &described);
+        json_result_append(
+            names, json_pack("{s:s, s:b}", "name", described.name, "maximise", described.maximise));
+    }
+    for (size_t i = 0; i < r->n_front; i++) {
+        const struct evaluation *e = &r->evaluations[r->front[i]];
+        json_t *row = evaluation(r, e);
+        json_result_set(row, "values", values(r, e));
+        json_result_append(list, row);
+    }
+    json_result_set(o, "objectives", names);
+    json_result_set(o, "front", list);
 }
 
 static json_t *constraints(const struct results *r)
@@ -241,6 +272,8 @@ json_t *summary_make(const struct results *r)
     }
     json_result_set(o, "baseline", evaluation(r, r->baseline));
     json_result_set(o, "best", best);
+    if (objectives_count(r->problem->config) > 1)
+        put_front(o, r);
     put(o, "reduction_percent", 100 * (1 - r->best->cw / r->baseline->cw));
     double total[2];
     results_total_resistance(r, total);
