@@ -211,12 +211,66 @@ static void shipped_hulls_keep_their_volume(void)
     }
 }
 
+/* The box drawn along another axis, in another unit and turned about. */
+static void doubts_what_is_no_ship(void)
+{
+    static const struct {
+        int axis[3];
+        double scale;
+        const char *says;
+    } bodies[] = {{{0, 1, 2}, 1, ""},
+                  {{1, 0, 2}, 1, "--axes yxz"},
+                  {{1, 2, 0}, 1, "if z is not upward"},
+                  {{0, 1, 2}, 1000, "millimetres were taken for metres"},
+                  {{0, 1, 2}, 0.001, "metres were taken for millimetres"}};
+    for (size_t b = 0; b < sizeof bodies / sizeof *bodies; b++) {
+        nurbs_mesh *mesh;
+        nurbs_hydrostatics h;
+        double points[24];
+        char sentence[220] = "unchanged";
+        for (size_t k = 0; k < 24; k++)
+            points[k] = bodies[b].scale * box_points[k / 3 * 3 + (size_t)bodies[b].axis[k % 3]];
+        CU_ASSERT_EQUAL_FATAL(nurbs_mesh_create(8, points, 12, box_corners, &mesh), NURBS_OK);
+        double level = 0.5 * bodies[b].scale;
+        CU_ASSERT_EQUAL_FATAL(nurbs_mesh_hydrostatics(mesh, level, &h), NURBS_OK);
+        CU_ASSERT_EQUAL(nurbs_mesh_doubt(mesh, level, &h, sizeof sentence, sentence), NURBS_OK);
+        if (*bodies[b].says)
+            CU_ASSERT_PTR_NOT_NULL(strstr(sentence, bodies[b].says))
+        else
+            CU_ASSERT_STRING_EQUAL(sentence, "");
+        nurbs_mesh_free(mesh);
+    }
+}
+
+/* A wedge, sharp at one end: its waterplane is fuller than its volume towards the other only where
+ * the keel rises there, so the keel rises to the broad end. */
+static void doubts_a_bow_at_small_x(void)
+{
+    static const double wedge[] = {0, 0, 0, 4, -1, 0, 4, 1, 0, 0, 0, -1, 4, 0, -0.1};
+    static const size_t corners[] = {0, 1, 3, 1, 4, 3, 0, 3, 2, 2, 3, 4, 1, 2, 4, 0, 2, 1};
+    for (int turned = 0; turned < 2; turned++) {
+        nurbs_mesh *mesh;
+        nurbs_hydrostatics h;
+        double points[15];
+        char sentence[220];
+        for (size_t k = 0; k < 15; k++)
+            points[k] = turned && k % 3 < 2 ? -wedge[k] : wedge[k];
+        CU_ASSERT_EQUAL_FATAL(nurbs_mesh_create(5, points, 6, corners, &mesh), NURBS_OK);
+        CU_ASSERT_EQUAL_FATAL(nurbs_mesh_hydrostatics(mesh, 0, &h), NURBS_OK);
+        CU_ASSERT_EQUAL(nurbs_mesh_doubt(mesh, 0, &h, sizeof sentence, sentence), NURBS_OK);
+        CU_ASSERT_EQUAL(strstr(sentence, "--flip x") != NULL, !turned);
+        nurbs_mesh_free(mesh);
+    }
+}
+
 static const struct check_case cases[] = {
     {"box has its closed form", box_has_its_closed_form},
     {"sections are ordered lines", sections_are_ordered_lines},
     {"reads its formats", reads_its_formats},
     {"refuses damaged files", refuses_damaged_files},
     {"refuses one-sided strips", refuses_one_sided_strips},
+    {"doubts what is no ship", doubts_what_is_no_ship},
+    {"doubts a bow at small x", doubts_a_bow_at_small_x},
     {"shipped hulls keep their volume", shipped_hulls_keep_their_volume},
 };
 

@@ -76,6 +76,7 @@ static void calls_that_can_fail(void)
     CHECK_NULL(nurbs_mesh_create(2, NULL, 2, NULL, NULL));
     CHECK_NULL(nurbs_mesh_read(NULL, 1.0, NULL));
     CHECK_NULL(nurbs_mesh_hydrostatics(NULL, 1.0, NULL));
+    CHECK_NULL(nurbs_mesh_doubt(NULL, 1.0, NULL, 2, NULL));
     CHECK_NULL(nurbs_mesh_section(NULL, NULL, 1.0, NULL));
     CHECK_NULL(nurbs_curve_insert(NULL, 2, NULL, NULL));
     CHECK_NULL(nurbs_surface_insert(NULL, 1, 2, NULL, NULL));

@@ -1,11 +1,13 @@
+#include "json_result.h"
 #include "nurbs_tool.h"
 
 #include <math.h>
 #include <string.h>
 #include <strings.h>
 
-static int report(const char *path, const nurbs_hydrostatics *h, const char *note,
-                  const nurbs_hull *hull, bool json)
+/* warnings: NULL unless json; taken over. */
+static int report(const char *path, const nurbs_hydrostatics *h, const char *note, json_t *warnings,
+                  bool json)
 {
     if (json)
         return print_json(json_pack(
@@ -17,7 +19,7 @@ static int report(const char *path, const nurbs_hydrostatics *h, const char *not
             "keel_draft", isfinite(h->keel_draft) ? json_real(h->keel_draft) : json_null(), "x_aft",
             h->x_aft, "x_fore", h->x_fore, "transom_area", h->transom_area, "section_area_max",
             h->section_area_max, "section_area_max_x", h->section_area_max_x, "error", h->error,
-            "note", note, "warnings", hull_steps(hull)));
+            "note", note, "warnings", warnings));
     printf("%s: %s (metres; both sides; z from the still water)\n", path, note);
     printf("  displaced volume       %.8g\n  wetted area            %.8g\n", h->volume,
            h->wetted_area);
@@ -43,16 +45,24 @@ static int report_mesh(const char *path, double unit, double level, bool json)
 {
     nurbs_mesh *mesh = NULL;
     nurbs_hydrostatics h;
-    char note[80];
+    char note[80], doubt[256] = "";
     int code = CLI_OK;
     if (nurbs_mesh_read(path, unit, &mesh) != NURBS_OK)
         return library_failure();
-    if (nurbs_mesh_hydrostatics(mesh, level, &h) != NURBS_OK)
+    if (nurbs_mesh_hydrostatics(mesh, level, &h) != NURBS_OK ||
+        nurbs_mesh_doubt(mesh, level, &h, sizeof doubt, doubt) != NURBS_OK)
         code = cli_fail("%s: %s", path, nurbs_last_error());
     snprintf(note, sizeof note, "%zu triangles cut at z = %g m", nurbs_mesh_triangles(mesh), level);
     h.centroid[2] -= level;
+    if (*doubt)
+        fprintf(stderr, "%s: %s: %s\n", cli_name(), path, doubt);
+    json_t *warnings = json ? json_array() : NULL;
+    if (json && *doubt)
+        json_result_append(warnings, json_string(doubt));
     if (code == CLI_OK)
-        code = report(path, &h, note, NULL, json);
+        code = report(path, &h, note, warnings, json);
+    else
+        json_decref(warnings);
     nurbs_mesh_free(mesh);
     return code;
 }
@@ -80,8 +90,8 @@ static int run(int argc, char **argv)
     if (code == CLI_OK)
         code = load_hull(argv[optind], &hull_options, &hull);
     if (code == CLI_OK)
-        code = report(argv[optind], nurbs_hull_hydrostatics(hull), nurbs_hull_step(hull, 0), hull,
-                      json);
+        code = report(argv[optind], nurbs_hull_hydrostatics(hull), nurbs_hull_step(hull, 0),
+                      json ? hull_steps(hull) : NULL, json);
     nurbs_hull_free(hull);
     return code;
 }

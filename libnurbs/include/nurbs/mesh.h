@@ -54,6 +54,15 @@ NURBS_API const size_t *nurbs_mesh_corners(const nurbs_mesh *mesh);
 NURBS_API nurbs_status nurbs_mesh_hydrostatics(const nurbs_mesh *mesh, double level,
                                                nurbs_hydrostatics *result);
 
+/** What in the sizes and the hydrostatics of a mesh is unlikely of a ship, with the call of `nurbs
+ * clean` that would mend it: more than 600 m or less than 0.02 m long, higher or wider than long, a
+ * bow at small x. "" if nothing is. Surfaces are told the same by nurbs_hull_step().
+ * @param level     as for the hydrostatics
+ * @param size      of the sentence, in bytes; 220 hold all of them */
+NURBS_API nurbs_status nurbs_mesh_doubt(const nurbs_mesh *mesh, double level,
+                                        const nurbs_hydrostatics *hydrostatics, size_t size,
+                                        char *sentence);
+
 /** Fills the lines where normal . p = offset, points in order along each, uv NULL; a closed line
  * repeats its first point. Where edges of triangles lie in the plane, they are taken as lying on
  * its positive side. nurbs_contour_free() frees. */

@@ -1,6 +1,7 @@
 /* What looks like no ship, or not like the ship that was meant, with the call that mends it. */
 #include "core/error.h"
 #include "hull/hull.h"
+#include "mesh/mesh.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -162,30 +163,39 @@ static nurbs_status check_length(nurbs_hull *hull)
 }
 
 /* The bow is where a bulb reaches ahead of the waterline; and the waterplane of nearly every ship
- * is fuller aft, so that its centre lies abaft that of the volume. */
-static nurbs_status doubt_bow(nurbs_hull *hull)
+ * is fuller aft, so that its centre lies abaft that of the volume. "" if nothing speaks against it.
+ */
+static void hint_of_bow(const hull_box *wetted, const nurbs_hydrostatics *h, char hint[HINT_SIZE])
 {
     static const char mend[] = "if the bow is at small x, 'nurbs clean --flip x' mends it";
+    double length = h->x_fore - h->x_aft, aft = h->x_aft - wetted->lower[0],
+           fore = wetted->upper[0] - h->x_fore;
+    *hint = '\0';
+    if (!(length > 0) || fore > reach * length)
+        return;
+    if (aft > reach * length)
+        snprintf(hint, HINT_SIZE,
+                 "below the water it reaches %.3g m beyond the waterline at small x, as bulbs do: "
+                 "%s",
+                 aft, mend);
+    else if (h->waterplane_centre > h->centroid[0] + fuller_fore * length)
+        snprintf(hint, HINT_SIZE,
+                 "the waterplane is fuller at large x (LCF %.6g m, LCB %.6g m), as ships are aft: "
+                 "%s",
+                 h->waterplane_centre, h->centroid[0], mend);
+}
+
+static nurbs_status doubt_bow(nurbs_hull *hull)
+{
+    char hint[HINT_SIZE];
     hull_box box;
-    const nurbs_hydrostatics *h = &hull->hydrostatics;
-    double length = h->x_fore - h->x_aft;
     if (!hull->waterline)
         return NURBS_OK;
     nurbs_status status = hull_box_of(hull->wetted, &box);
     if (status)
         return status;
-    double aft = h->x_aft - box.lower[0], fore = box.upper[0] - h->x_fore;
-    if (aft > reach * length && !(fore > reach * length))
-        return hull_tell(hull,
-                         "below the water it reaches %.3g m beyond the waterline at small x, as "
-                         "bulbs do: %s",
-                         aft, mend);
-    if (h->waterplane_centre > h->centroid[0] + fuller_fore * length && !(fore > reach * length))
-        return hull_tell(hull,
-                         "the waterplane is fuller at large x (LCF %.6g m, LCB %.6g m), as "
-                         "ships are aft: %s",
-                         h->waterplane_centre, h->centroid[0], mend);
-    return NURBS_OK;
+    hint_of_bow(&box, &hull->hydrostatics, hint);
+    return *hint ? hull_tell(hull, "%s", hint) : NURBS_OK;
 }
 
 nurbs_status hull_doubt(nurbs_hull *hull, const hull_box *file)
@@ -202,4 +212,30 @@ nurbs_status hull_doubt(nurbs_hull *hull, const hull_box *file)
     if (!status && *hint)
         status = hull_tell(hull, "%s", hint);
     return status ? status : doubt_bow(hull);
+}
+
+nurbs_status nurbs_mesh_doubt(const nurbs_mesh *mesh, double level, const nurbs_hydrostatics *h,
+                              size_t size, char *sentence)
+{
+    if (!mesh || !h || !sentence || size == 0)
+        return nurbs_fail(NURBS_ERROR_ARGUMENT, "nurbs_mesh_doubt: a mesh, its hydrostatics and "
+                                                "room for a sentence are expected");
+    char hint[HINT_SIZE];
+    hull_box all = hull_box_empty(), wetted = hull_box_empty();
+    for (size_t k = 0; k < mesh->vertices; k++) {
+        const double *p = mesh->points + 3 * k;
+        for (int c = 0; c < 3; c++) {
+            all.lower[c] = fmin(all.lower[c], p[c]);
+            all.upper[c] = fmax(all.upper[c], p[c]);
+        }
+        if (p[2] < level) {
+            wetted.lower[0] = fmin(wetted.lower[0], p[0]);
+            wetted.upper[0] = fmax(wetted.upper[0], p[0]);
+        }
+    }
+    hint_of_size(&all, hint);
+    if (!*hint)
+        hint_of_bow(&wetted, h, hint);
+    snprintf(sentence, size, "%s", hint);
+    return NURBS_OK;
 }

@@ -60,7 +60,8 @@ static void widen(double value, double *low, double *high)
 static nurbs_status measure_body(body *b)
 {
     const nurbs_mesh *m = b->mesh;
-    double y_low = INFINITY, y_high = -INFINITY, polygon[4][3];
+    double y_low = INFINITY, y_high = -INFINITY, z_low = INFINITY, z_high = -INFINITY;
+    double polygon[4][3];
     for (int c = 0; c < 3; c++) {
         b->low[c] = INFINITY;
         b->high[c] = -INFINITY;
@@ -71,6 +72,7 @@ static nurbs_status measure_body(body *b)
     for (size_t k = 0; k < m->vertices; k++) {
         widen(m->points[3 * k], &b->x_low, &b->x_high);
         widen(m->points[3 * k + 1], &y_low, &y_high);
+        widen(m->points[3 * k + 2], &z_low, &z_high);
     }
     b->half = y_low >= -b->near || y_high <= b->near;
     for (size_t k = 0; k < m->triangles; k++) {
@@ -86,7 +88,10 @@ static nurbs_status measure_body(body *b)
         }
     }
     if (!(b->high[0] > b->low[0]))
-        return nurbs_fail(NURBS_ERROR_GEOMETRY, "the mesh has nothing below z = %g", b->level);
+        return nurbs_fail(
+            NURBS_ERROR_GEOMETRY,
+            "the mesh has nothing below z = %g m: it lies between z = %.6g and %.6g m", b->level,
+            z_low, z_high);
     return NURBS_OK;
 }
 
