@@ -49,6 +49,7 @@ static void calls_that_can_fail(void)
     CHECK_NULL(nurbs_patches_snap(NULL, 1.0, NULL, NULL, NULL));
     CHECK_NULL(nurbs_hull_write(NULL, NULL, NULL));
     CHECK_NULL(nurbs_hydrostatics_compute(2, NULL, 1.0, NULL));
+    CHECK_NULL(nurbs_hydrostatics_whole(2, NULL, 1.0, NULL));
     CHECK_NULL(nurbs_transom_patches(2, NULL, 1.0, NULL));
     CHECK_NULL(nurbs_surface_area(NULL, NULL, NULL));
     CHECK_NULL(nurbs_surface_moments(NULL, NULL, NULL));

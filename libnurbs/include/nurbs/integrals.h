@@ -40,6 +40,12 @@ typedef struct nurbs_hydrostatics {
 NURBS_API nurbs_status nurbs_hydrostatics_compute(size_t n, const nurbs_surface *const *wetted,
                                                   double level, nurbs_hydrostatics *result);
 
+/** The same of a body whose patches cover both sides, each of them one side: the sum of the two
+ * halves, the section of the starboard one. Error: also NURBS_ERROR_GEOMETRY for a patch that runs
+ * across y = 0 by more than 1e-6 of the length. */
+NURBS_API nurbs_status nurbs_hydrostatics_whole(size_t n, const nurbs_surface *const *wetted,
+                                                double level, nurbs_hydrostatics *result);
+
 /** Which of several patches close the stern: flat, facing along x, within 5 % of the length of the
  * aft end, and with an edge at the level. Their area is the immersed transom's and no part of the
  * wetted area. Fills closes[n] with 1 or 0. */

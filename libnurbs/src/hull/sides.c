@@ -9,7 +9,7 @@
 
 static const double mirror[9] = {1, 0, 0, 0, -1, 0, 0, 0, 1};
 
-/* libnurbs integrates over a half hull and doubles: of a body given whole each side counts half. */
+/* Each side was taken for a half hull and doubled: it counts half. */
 static void add_side(nurbs_hydrostatics *sum, const nurbs_hydrostatics *side)
 {
     double volume = side->volume / 2, plane = side->waterplane_area / 2;
@@ -37,8 +37,9 @@ static void add_side(nurbs_hydrostatics *sum, const nurbs_hydrostatics *side)
     sum->error = fmax(sum->error, side->error);
 }
 
-static nurbs_status port_patch(const nurbs_surface *surface, size_t p, double tolerance,
-                               bool *starboard)
+/* Whether a patch lies to starboard. */
+static nurbs_status find_side(const nurbs_surface *surface, size_t p, double tolerance,
+                              bool *starboard)
 {
     hull_box box = hull_box_empty();
     nurbs_status status = hull_box_widen(surface, &box);
@@ -53,58 +54,66 @@ static nurbs_status port_patch(const nurbs_surface *surface, size_t p, double to
     return NURBS_OK;
 }
 
-/* The patches of one side at y >= 0. Creates *side. */
-static nurbs_status one_side(const nurbs_patches *patches, bool starboard, double tolerance,
-                             nurbs_patches **side)
+/* The surfaces of one side at y >= 0. Fills side[n], of which *count are created. */
+static nurbs_status one_side(size_t n, const nurbs_surface *const *wetted, bool starboard,
+                             double tolerance, nurbs_surface **side, size_t *count)
 {
-    nurbs_status status = nurbs_patches_create(side);
-    for (size_t p = 0; !status && p < nurbs_patches_count(patches); p++) {
-        const nurbs_surface *surface = nurbs_patches_get(patches, p);
-        nurbs_surface *turned = NULL;
+    nurbs_status status = NURBS_OK;
+    *count = 0;
+    for (size_t p = 0; !status && p < n; p++) {
         bool here = false;
-        status = port_patch(surface, p, tolerance, &here);
-        if (status || here != starboard)
-            continue;
-        if (starboard)
-            status = nurbs_surface_transform(surface, mirror, NULL, &turned);
-        if (!status)
-            status = nurbs_patches_add(*side, turned ? turned : surface);
-        nurbs_surface_free(turned);
+        status = find_side(wetted[p], p, tolerance, &here);
+        if (!status && here == starboard)
+            status = starboard ? nurbs_surface_transform(wetted[p], mirror, NULL, &side[(*count)++])
+                               : nurbs_surface_copy(wetted[p], &side[(*count)++]);
     }
     return status;
 }
 
-static nurbs_status half_hydrostatics(const nurbs_patches *half, nurbs_hydrostatics *result)
+nurbs_status nurbs_hydrostatics_whole(size_t n, const nurbs_surface *const *wetted, double level,
+                                      nurbs_hydrostatics *result)
 {
-    size_t n = nurbs_patches_count(half);
+    if (n == 0 || !wetted || !result)
+        return nurbs_fail(NURBS_ERROR_ARGUMENT,
+                          "nurbs_hydrostatics_whole: surfaces and a result are expected");
+    hull_box box = hull_box_empty();
+    nurbs_status status = NURBS_OK;
+    nurbs_surface **side = calloc(n, sizeof *side);
+    if (!side)
+        return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu patches", n);
+    for (size_t p = 0; p < n && !status; p++)
+        status = hull_box_widen(wetted[p], &box);
+    *result = (nurbs_hydrostatics){.x_aft = INFINITY, .x_fore = -INFINITY};
+    for (int s = 0; s < 2 && !status; s++) {
+        nurbs_hydrostatics h;
+        size_t count;
+        status = one_side(n, wetted, s == 1, HULL_CLEARANCE * (box.upper[0] - box.lower[0]), side,
+                          &count);
+        if (!status && count)
+            status =
+                nurbs_hydrostatics_compute(count, (const nurbs_surface *const *)side, level, &h);
+        if (!status && count)
+            add_side(result, &h);
+        for (size_t p = 0; p < n; p++) {
+            nurbs_surface_free(side[p]);
+            side[p] = NULL;
+        }
+    }
+    free(side);
+    return status;
+}
+
+nurbs_status hull_hydrostatics(const nurbs_patches *wetted, bool half, nurbs_hydrostatics *result)
+{
+    size_t n = nurbs_patches_count(wetted);
     const nurbs_surface **list = malloc((n + 1) * sizeof(const nurbs_surface *));
     if (!list)
         return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu patches", n);
     for (size_t p = 0; p < n; p++)
-        list[p] = nurbs_patches_get(half, p);
-    nurbs_status status = nurbs_hydrostatics_compute(n, list, 0.0, result);
+        list[p] = nurbs_patches_get(wetted, p);
+    nurbs_status status = half ? nurbs_hydrostatics_compute(n, list, 0.0, result)
+                               : nurbs_hydrostatics_whole(n, list, 0.0, result);
     free(list);
-    return status;
-}
-
-nurbs_status hull_hydrostatics(const nurbs_patches *wetted, bool half, nurbs_hydrostatics *sum)
-{
-    if (half)
-        return half_hydrostatics(wetted, sum);
-    hull_box box;
-    nurbs_status status = hull_box_of(wetted, &box);
-    *sum = (nurbs_hydrostatics){.x_aft = INFINITY, .x_fore = -INFINITY};
-    for (int s = 0; s < 2 && !status; s++) {
-        nurbs_patches *side = NULL;
-        nurbs_hydrostatics h;
-        status = one_side(wetted, s == 1, HULL_CLEARANCE * (box.upper[0] - box.lower[0]), &side);
-        if (!status && nurbs_patches_count(side) > 0) {
-            status = half_hydrostatics(side, &h);
-            if (!status)
-                add_side(sum, &h);
-        }
-        nurbs_patches_free(side);
-    }
     return status;
 }
 
