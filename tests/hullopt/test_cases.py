@@ -122,6 +122,14 @@ def wigley_pareto():
         for fr, value in zip(("0.316", "0.25"), row["values"]):
             within(cw("member/best_wetted.json", "--fr", fr, *options), value, 1e-3, "C_w of a member")
             within(cw("member/best.igs", "--fr", fr, *options), value, 0.15, "C_w of its hull up to the deck")
+    # What the report says of the model is what the store's own command says.
+    model, known = told["model"], json.loads(do("bayesopt", "status", "run/run.db", "--json"))["model"]
+    assert model["designs"] == 17
+    within(model["loo_rms"], known["loo_rms"], 1e-12, "leave-one-out error")
+    for j, scale in enumerate(model["lengthscale"]):
+        within(scale, known["lengthscale"][f"x{j + 1}"], 1e-12, "length scale")
+    assert len(model["sobol"]) == 2 and all(0.5 < sum(s["with_others"]) and sum(s["alone"]) < 1.2 for s in model["sobol"]), model
+    assert json.loads(do("hullopt", "report", "run", "--json"))["model"] == model
     again = subprocess.run(["hullopt", "report", "run", "--design", "3"], capture_output=True, text=True)
     assert again.returncode == 2 and "--out" in again.stderr
 

@@ -96,6 +96,7 @@ void report_write(FILE *out, const struct results *r)
     report_verification(out, r);
     report_agreement(out, r);
     latent_section(out, r);
+    report_model(out, r);
     report_settings(out, r);
     fputs("</main></body></html>\n", out);
 }

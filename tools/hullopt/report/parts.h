@@ -15,6 +15,8 @@ void report_failures(FILE *out, const struct results *results);
 void report_verification(FILE *out, const struct results *results);
 /* Nothing without search.models. */
 void report_agreement(FILE *out, const struct results *results);
+/* The model of the search, where it has one. */
+void report_model(FILE *out, const struct results *results);
 void report_settings(FILE *out, const struct results *results);
 
 #endif

@@ -102,7 +102,8 @@ bool results_read(struct problem *problem, const struct record *record, size_t d
                optimise_set_best(problem, record, r->best)) &&
               record_get_text(record, "stop", &r->stop) &&
               (r->chosen || read_verification(record, r)) &&
-              record_seconds(record, &r->sessions, &r->seconds);
+              record_seconds(record, &r->sessions, &r->seconds) &&
+              model_read(record, problem->config, r->baseline->cw, &r->model);
     if (!ok) {
         results_free(r);
         return false;
@@ -127,6 +128,7 @@ void results_free(struct results *r)
 {
     for (int k = 0; k < 2; k++)
         free(r->waves[k].elevation);
+    model_free(&r->model);
     free(r->evaluations);
     free(r->front);
     free(r->rows);

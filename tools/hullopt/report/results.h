@@ -5,6 +5,7 @@
 
 #include "core/record.h"
 #include "core/waves.h"
+#include "report/model.h"
 #include "report/verdict.h"
 
 struct results {
@@ -19,6 +20,7 @@ struct results {
     struct verification *rows;
     size_t n_rows;
     struct verdict verdict;
+    struct search_model model;
     struct waves waves[2]; /* elevation NULL when not there */
     double *parameters;    /* of the optimum, NULL when not there; residual in metres */
     size_t n_parameters;

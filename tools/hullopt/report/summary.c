@@ -225,6 +225,24 @@ static json_t *solver(const igabem_options *options)
     return o;
 }
 
+/* null where the search has none. */
+static json_t *model(const struct search_model *m)
+{
+    if (!m->known)
+        return json_null();
+    json_t *o = json_object(), *indices = json_array();
+    for (size_t k = 0; k < m->objectives; k++)
+        json_result_append(indices,
+                           json_pack("{s:o, s:o}", "alone", array(m->d, m->first + k * m->d),
+                                     "with_others", array(m->d, m->total + k * m->d)));
+    put_count(o, "designs", m->info.n);
+    json_result_set(o, "transform", json_string(bayesopt_transform_name(m->info.transform)));
+    put(o, "loo_rms", m->info.loo_rms);
+    json_result_set(o, "lengthscale", array(m->d, m->scale));
+    json_result_set(o, "sobol", indices);
+    return o;
+}
+
 static json_t *failures(const struct results *r)
 {
     json_t *list = json_array();
@@ -294,6 +312,7 @@ json_t *summary_make(const struct results *r)
     json_result_set(o, "verification", verification(r));
     json_result_set(o, "robust", robust(&r->verdict));
     json_result_set(o, "agreement", agreement(r));
+    json_result_set(o, "model", model(&r->model));
     json_result_set(o, "failures", failures(r));
     json_result_set(o, "settings", settings(r->problem->config->text));
     json_result_set(o, "solver", solver(&r->problem->solver));
