@@ -97,8 +97,17 @@ static void print_igabem(void)
     D(igabem_options, stem_limit);
     D(igabem_options, stern_length);
     D(igabem_options, stern_blend);
+    D(igabem_options, spectrum_limit);
     D(igabem_options, tolerance);
     I(igabem_options, threads);
+    D(igabem_options, surface_cells);
+    D(igabem_options, surface_rows);
+    D(igabem_options, surface_first);
+    D(igabem_options, surface_damping);
+    D(igabem_options, surface_upstream);
+    D(igabem_options, surface_downstream);
+    D(igabem_options, surface_side);
+    D(igabem_options, surface_columns);
     D(igabem_options, keep_system);
     END;
     BEGIN(igabem_forces);
@@ -111,6 +120,9 @@ static void print_igabem(void)
     D(igabem_forces, cw_l2);
     D(igabem_forces, cw_error);
     D(igabem_forces, cw_pressure);
+    D(igabem_forces, cw_pressure_linear);
+    D(igabem_forces, cw_run_up);
+    D(igabem_forces, cw_transom);
     D(igabem_forces, sinkage);
     D(igabem_forces, trim);
     D(igabem_forces, condition);
