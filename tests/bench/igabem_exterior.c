@@ -1,6 +1,6 @@
 /* The potential on hull and free surface beside exact values, the Kelvin solver and itself.
- * Usage: igabem_bench_exterior spheroid | wigley | code | double-model | HULL.json... (no argument:
- * the first three; double-model: for the hulls named after it) */
+ * Usage: igabem_bench_exterior spheroid | wigley | code | double-model | HULL.json... | cut CELLS
+ * HULL.json... (no argument: the first three; double-model: for the hulls named after it) */
 #include <igabem/igabem.h>
 #include <nurbs/nurbs.h>
 
@@ -237,6 +237,79 @@ static void settings(const char *path)
     nurbs_hull_free(source);
 }
 
+/* Of the Kochin function, the angles that a cut holds. */
+static double kochin_within(const igabem_solution *solution, double limit)
+{
+    enum { N = 400 };
+    double t[N], h[N][2], dcw[N], step = asinh(limit) / N, sum = 0.0;
+    for (int i = 0; i < N; i++)
+        t[i] = sinh((i + 0.5) * step);
+    if (igabem_kochin(solution, N, t, h, dcw))
+        return NAN;
+    for (int i = 0; i < N; i++)
+        sum += 2.0 * dcw[i] * cosh((i + 0.5) * step) * step;
+    return sum;
+}
+
+/* One solution: C_w, its part of t < 4, and what cuts so far off the side say over that part. */
+static void cut_row(const char *name, const igabem_hull *hull, const igabem_options *options)
+{
+    static const double off[] = {0.05, 0.10, 0.15, 0.20};
+    igabem_solution *solution = NULL;
+    igabem_forces forces;
+    igabem_hull_info info;
+    igabem_hull_get_info(hull, &info);
+    if (igabem_solve(hull, options, &solution) || igabem_forces_compute(solution, &forces)) {
+        fprintf(stderr, "%s\n", igabem_last_error());
+        igabem_solution_free(solution);
+        return;
+    }
+    double within = kochin_within(solution, 4.0);
+    printf("| %s | %s | %g | %.2f | %.4f | %.4f |", name,
+           igabem_formulation_name(options->formulation), options->surface_cells, options->froude,
+           1e3 * forces.cw, 1e3 * within);
+    for (size_t k = 0; k < sizeof off / sizeof *off; k++) {
+        double cw = NAN, y = 0.5 * info.hydrostatics.beam + off[k] * info.length;
+        if (igabem_wave_cut(solution, y, &cw))
+            fprintf(stderr, "%s\n", igabem_last_error());
+        printf(" %.3f |", cw / within);
+    }
+    printf("\n");
+    fflush(stdout);
+    igabem_solution_free(solution);
+}
+
+/* Waves on the solved surface beside the Kochin function of the same solution. */
+static void cuts(double cells, const char *path)
+{
+    static const double froude[] = {0.28, 0.35, 0.41};
+    static const igabem_formulation rows[] = {IGABEM_FORMULATION_DOUBLE_MODEL,
+                                              IGABEM_FORMULATION_EXTERIOR};
+    nurbs_hull *source = NULL;
+    igabem_hull *hull = NULL;
+    const char *name = strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
+    if (nurbs_hull_read(path, NULL, &source) || igabem_hull_from(source, &hull)) {
+        fprintf(stderr, "%s: %s %s\n", path, nurbs_last_error(), igabem_last_error());
+        nurbs_hull_free(source);
+        return;
+    }
+    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++)
+        for (size_t k = 0; k < sizeof froude / sizeof *froude; k++) {
+            igabem_options options = exterior(cells);
+            options.formulation = rows[r];
+            options.froude = froude[k];
+            options.elements_u = 48;
+            options.elements_v = 10;
+            options.surface_rows = round(0.55 * cells);
+            options.surface_side = 0.8;
+            options.surface_downstream =
+                fmax(1.0, 1.25 * 2.0 * 3.141592653589793 * froude[k] * froude[k]);
+            cut_row(name, hull, &options);
+        }
+    igabem_hull_free(hull);
+    nurbs_hull_free(source);
+}
+
 int main(int argc, char **argv)
 {
     for (int k = 1; k < argc; k++) {
@@ -246,7 +319,13 @@ int main(int argc, char **argv)
             wigleys();
         else if (strcmp(argv[k], "code") == 0)
             another_code();
-        else if (igabem_formulation_parse(argv[k], &settings_of))
+        else if (strcmp(argv[k], "cut") == 0 && k + 2 < argc) {
+            printf(
+                "| hull | formulation | cells | Fr | C_w x 1000 | t < 4 | cut at 0.05 L, over it "
+                "| 0.10 | 0.15 | 0.20 |\n");
+            for (double cells = atof(argv[++k]); k + 1 < argc;)
+                cuts(cells, argv[++k]);
+        } else if (igabem_formulation_parse(argv[k], &settings_of))
             continue;
         else
             settings(argv[k]);

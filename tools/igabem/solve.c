@@ -96,6 +96,18 @@ static void start_surface(const struct solve_run *run, igabem_options *options)
                                                     (double)igabem_ladder_unknowns(2))));
 }
 
+/* Where nothing else is asked, a wave cut gets the waves behind the ship that it is continued from:
+ * the 1.2 wave lengths that igabem_wave_cut() needs and a share to see them by. */
+static void lengthen_surface(const struct solve_run *run, igabem_options *options)
+{
+    static const double wave_lengths = 1.3, farthest = 3.0;
+    if (run->request->survey && options->surface_downstream == 0 &&
+        is_potential(options->formulation))
+        options->surface_downstream =
+            fmin(farthest,
+                 fmax(1.0, wave_lengths * 2.0 * acos(-1.0) * options->froude * options->froude));
+}
+
 /* Settings of all cases of one level: Froude numbers slow, formulations fast. */
 static void fill_options(const struct solve_run *run, size_t level, igabem_options *options)
 {
@@ -107,6 +119,7 @@ static void fill_options(const struct solve_run *run, size_t level, igabem_optio
         options[c].froude = request->fr[c / n];
         options[c].formulation = list[c % n];
         start_surface(run, &options[c]);
+        lengthen_surface(run, &options[c]);
         igabem_ladder_level(level, &options[c]);
         if (!isnan(request->x_s))
             options[c].stern_length =
@@ -129,6 +142,15 @@ static int write_files(const struct solve_run *run, const igabem_solution *solut
     return code;
 }
 
+static void add_warning(struct solve_result *result, const char *sentence)
+{
+    size_t k = 0;
+    while (k + 1 < WARNINGS_MOST && result->warning[k])
+        k++;
+    if (k + 1 < WARNINGS_MOST)
+        result->warning[k] = cli_needed(strdup(sentence));
+}
+
 /* Where the waves come from and what a wave cut says; thirds of the extent of the hull. */
 static igabem_status survey(const struct solve_run *run, const igabem_solution *solution,
                             struct solve_result *result)
@@ -140,9 +162,15 @@ static igabem_status survey(const struct solve_run *run, const igabem_solution *
     if (status)
         return status;
     const igabem_formulation_row *row = igabem_formulation_info(result->options.formulation);
-    if (!row->solves || row->potential || !run->input->half)
+    if (!row->solves || !run->input->half)
         return IGABEM_OK;
-    return igabem_wave_cut(solution, NAN, &result->cw_cut);
+    status = igabem_wave_cut(solution, NAN, &result->cw_cut);
+    if (!row->potential || status != IGABEM_ERROR_ARGUMENT)
+        return status;
+    /* Its free surface is too small for one. */
+    result->cw_cut = NAN;
+    add_warning(result, igabem_last_error());
+    return IGABEM_OK;
 }
 
 /* Coefficients on the wetted area at rest, and the attitude that the hull was solved in. */
@@ -165,9 +193,8 @@ static void refer_to_rest(const struct solve_run *run, struct solve_result *resu
 static void keep_warnings(const igabem_solution *solution, struct solve_result *result)
 {
     const char *sentence;
-    for (size_t k = 0; k + 1 < WARNINGS_MOST; k++)
-        if ((sentence = igabem_solution_warning(solution, &result->forces, k)))
-            result->warning[k] = strdup(sentence);
+    for (size_t k = 0; (sentence = igabem_solution_warning(solution, &result->forces, k)); k++)
+        add_warning(result, sentence);
 }
 
 static const igabem_forces no_forces = {.speed = NAN,

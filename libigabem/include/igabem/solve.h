@@ -250,8 +250,13 @@ IGABEM_API igabem_status igabem_free_surface_grid(const igabem_solution *solutio
 /** C_w from the waves along the line y = const beside a symmetric hull, given as a half or whole
  * (Eggers, Sharma and Ward 1967), m; NAN: a transverse wave length off the side. It holds a part of
  * the local disturbance of relative size e^{-k0 (y - B/2)}, and waves as filtered by the cut-off,
- * which the Kochin function is not. Costs some thousand elevations. Refused by a formulation with a
- * potential, whose free surface ends before the waves have left such a cut. */
+ * which the Kochin function is not. Costs some thousand elevations.
+ *
+ * Of a formulation with a potential: through the free surface that was solved, up to t = 4. Free
+ * waves fitted to the elevations behind the ship continue the cut aft and give its small angles
+ * (docs/theory.md, section 8); NAN: a twentieth of the length off the side. Errors:
+ * IGABEM_ERROR_ARGUMENT: y beyond the surface; a surface that ends less than 1.2 transverse wave
+ * lengths aft of the hull. */
 IGABEM_API igabem_status igabem_wave_cut(const igabem_solution *solution, double y, double *cw);
 
 #ifdef __cplusplus

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "result/amplitude.h"
 #include "result/radiation.h"
+#include "result/wave_cut_surface.h"
 #include "threads.h"
 
 #include <nurbs/basis.h>
@@ -221,11 +222,6 @@ static igabem_status check_request(const igabem_solution *solution, const double
     if (!solution->waves)
         return igabem_fail(IGABEM_ERROR_ARGUMENT,
                            "this solution has no free surface, expected the Kelvin kernel");
-    if (solution->potential)
-        return igabem_fail(IGABEM_ERROR_ARGUMENT,
-                           "a wave cut runs farther aft than the free surface that formulation %s "
-                           "has solved",
-                           igabem_formulation_name(solution->options.formulation));
     return check_symmetry(solution);
 }
 
@@ -235,6 +231,8 @@ igabem_status igabem_wave_cut(const igabem_solution *solution, double y, double 
     if (status)
         return status;
     THREADS(solution->options.threads);
+    if (solution->potential)
+        return wave_cut_surface(solution, y, cw);
     double length, beam, k0 = solution->k0, limit = cut_limit(solution);
     radiation_extent(solution, &length, &beam);
     if (isnan(y))
