@@ -170,6 +170,20 @@ static bayesopt_status opening_error(const struct store *store)
     return bayesopt_fail(BAYESOPT_ERROR_FILE, "%s: %s", store->path, sqlite3_errmsg(store->db));
 }
 
+/* Where a file system has no locks SQLite answers as if somebody held them, and would wait; the
+ * reason is left in errno alone. */
+static bayesopt_status check_locks(struct store *store)
+{
+    errno = 0;
+    int code = sqlite3_exec(store->db, "SELECT count(*) FROM sqlite_master", NULL, NULL, NULL);
+    if (code == SQLITE_BUSY && errno == ENOLCK)
+        return bayesopt_fail(BAYESOPT_ERROR_FILE,
+                             "%s: its file system gives no locks (%s), without which two sessions "
+                             "would destroy it: keep it on another one",
+                             store->path, strerror(ENOLCK));
+    return BAYESOPT_OK;
+}
+
 static bayesopt_status connect(const char *path, int flags, struct store **out)
 {
     struct store *store = calloc(1, sizeof *store);
@@ -184,6 +198,8 @@ static bayesopt_status connect(const char *path, int flags, struct store **out)
     bayesopt_status status = BAYESOPT_OK;
     if (sqlite3_open_v2(path, &store->db, flags, NULL) != SQLITE_OK)
         status = opening_error(store);
+    if (!status)
+        status = check_locks(store);
     /* Another session's ask holds the lock while it computes. */
     if (!status)
         sqlite3_busy_timeout(store->db, 600000);

@@ -202,6 +202,9 @@ static json_t *holders_json(bayesopt *bo)
     return list;
 }
 
+/* Clocks of several machines agree to less, s. */
+static const double FAST_CLOCK = 60;
+
 static void print_holders(const json_t *list)
 {
     size_t i;
@@ -210,6 +213,7 @@ static void print_holders(const json_t *list)
     {
         bool detached = json_is_true(json_object_get(h, "detached"));
         const char *host = json_string_value(json_object_get(h, "host"));
+        double heard = json_number_value(json_object_get(h, "heard"));
         if (!json_integer_value(json_object_get(h, "process"))) {
             printf("point %lld waits to be asked again\n",
                    (long long)json_integer_value(json_object_get(h, "id")));
@@ -221,8 +225,11 @@ static void print_holders(const json_t *list)
                (long long)json_integer_value(json_object_get(h, "process")),
                host && *host ? " on " : "", host ? host : "",
                detached || json_is_true(json_object_get(h, "alive")) ? "" : " (which is dead)",
-               json_number_value(json_object_get(h, "asked")),
-               json_number_value(json_object_get(h, "heard")));
+               fmax(json_number_value(json_object_get(h, "asked")), 0), fmax(heard, 0));
+        if (heard < -FAST_CLOCK)
+            printf("point %lld was heard of %.0f s from now: a clock is wrong, and until then "
+                   "'ask --reissue --stale' keeps it ('bayesopt release' gives it out)\n",
+                   (long long)json_integer_value(json_object_get(h, "id")), -heard);
     }
 }
 
