@@ -9,7 +9,7 @@
 
 /* The one version of the schema, kept as entry 'format'. 1: version 0.1.0 of the library, without
  * texts, arrays and attributes; 2: without signs of life. */
-enum { FORMAT = 3 };
+enum { FORMAT = 3, BUSY = 600000 /* ms that another may hold the file */ };
 
 static const char schema_1[] =
     "CREATE TABLE bayesopt_meta(key TEXT PRIMARY KEY, value BLOB NOT NULL) WITHOUT ROWID;"
@@ -184,6 +184,28 @@ static bayesopt_status check_locks(struct store *store)
     return BAYESOPT_OK;
 }
 
+/* What a process wrote that died before the end of its transaction is undone by whoever opens the
+ * file next and may write. */
+static bool undo_unfinished(const char *path)
+{
+    sqlite3 *db = NULL;
+    bool ok = sqlite3_open_v2(path, &db, SQLITE_OPEN_READWRITE, NULL) == SQLITE_OK &&
+              sqlite3_busy_timeout(db, BUSY) == SQLITE_OK &&
+              sqlite3_exec(db, "BEGIN IMMEDIATE; ROLLBACK", NULL, NULL, NULL) == SQLITE_OK;
+    sqlite3_close(db);
+    return ok;
+}
+
+/* The first of these reads the file. */
+static bool begin(struct store *store)
+{
+    static const char pragmas[] = "PRAGMA synchronous = FULL; PRAGMA temp_store = MEMORY";
+    int code = sqlite3_exec(store->db, pragmas, NULL, NULL, NULL);
+    if (code == SQLITE_READONLY && undo_unfinished(store->path))
+        code = sqlite3_exec(store->db, pragmas, NULL, NULL, NULL);
+    return code == SQLITE_OK;
+}
+
 static bayesopt_status connect(const char *path, int flags, struct store **out)
 {
     struct store *store = calloc(1, sizeof *store);
@@ -202,10 +224,8 @@ static bayesopt_status connect(const char *path, int flags, struct store **out)
         status = check_locks(store);
     /* Another session's ask holds the lock while it computes. */
     if (!status)
-        sqlite3_busy_timeout(store->db, 600000);
-    /* The first of these reads the file. */
-    if (!status && sqlite3_exec(store->db, "PRAGMA synchronous = FULL; PRAGMA temp_store = MEMORY",
-                                NULL, NULL, NULL) != SQLITE_OK)
+        sqlite3_busy_timeout(store->db, BUSY);
+    if (!status && !begin(store))
         status = store_error(store, "opening the store");
     if (!status)
         status = check_intact(store);

@@ -1,9 +1,12 @@
 /* Files of stores: older and newer ones, damaged and foreign ones, looked at and shared. */
 #include "store_study.h"
 
+#include <signal.h>
 #include <sqlite3.h>
 #include <stdlib.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 static void execute(const char *sql)
 {
@@ -124,6 +127,40 @@ static void reading_changes_nothing(void)
     CU_ASSERT_NOT_EQUAL(access(beside, F_OK), 0);
     remove(path);
     CU_ASSERT_EQUAL(bayesopt_open_read(path, &bo), BAYESOPT_ERROR_FILE);
+}
+
+/* A process dies while SQLite writes its pages: what it wrote is undone when the store is looked at
+ * next, for which the file must be writable. */
+static void unfinished_writes_are_undone(void)
+{
+    fresh_path("unfinished");
+    bayesopt *bo = open_store(), *whole = make(NULL);
+    run(bo, 9);
+    run(whole, 9);
+    bayesopt_free(bo);
+    pid_t child = fork();
+    if (child == 0) {
+        sqlite3 *db;
+        sqlite3_open(path, &db);
+        /* A cache of one page, so that the file is written before the end. */
+        sqlite3_exec(db,
+                     "PRAGMA cache_size = 1; PRAGMA cache_spill = 1; BEGIN;"
+                     "UPDATE bayesopt_points SET f = 7; UPDATE bayesopt_meta SET value = value;"
+                     "CREATE TABLE filler AS WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT "
+                     "i + 1 FROM n WHERE i < 3000) SELECT i, randomblob(200) AS b FROM n;",
+                     NULL, NULL, NULL);
+        kill(getpid(), SIGKILL);
+    }
+    CU_ASSERT_EQUAL(waitpid(child, NULL, 0), child);
+    char beside[300];
+    snprintf(beside, sizeof beside, "%s-journal", path);
+    CU_ASSERT_EQUAL_FATAL(access(beside, F_OK), 0);
+    CU_ASSERT_EQUAL_FATAL(bayesopt_open_read(path, &bo), BAYESOPT_OK);
+    same_history(whole, bo);
+    bayesopt_free(bo);
+    bayesopt_free(whole);
+    CU_ASSERT_NOT_EQUAL(access(beside, F_OK), 0);
+    remove(path);
 }
 
 static void write_bytes(const char *text, size_t n)
@@ -278,6 +315,7 @@ static const struct check_case cases[] = {
     {"older stores go on", older_stores_go_on},
     {"newer stores are refused", newer_stores_are_refused},
     {"reading changes nothing", reading_changes_nothing},
+    {"unfinished writes are undone", unfinished_writes_are_undone},
     {"damaged and foreign files", damaged_and_foreign_files},
     {"damaged rows", damaged_rows},
     {"another problem", another_problem},

@@ -214,8 +214,9 @@ BAYESOPT_API bayesopt_status bayesopt_open(const char *path,
 
 /**
  * Creates an optimisation from an existing store, for looking only: nothing in the file or its
- * folder is written, which both may forbid. History, best point, model and records are there; ask,
- * tell and whatever else would write return BAYESOPT_ERROR_ARGUMENT.
+ * folder is written, which both may forbid; only what a process that died left unfinished is undone
+ * first, for which they must allow it. History, best point, model and records are there; ask, tell
+ * and whatever else would write return BAYESOPT_ERROR_ARGUMENT.
  */
 BAYESOPT_API bayesopt_status bayesopt_open_read(const char *path, bayesopt **bo);
 
