@@ -149,6 +149,39 @@ run(making, "killed", "--resume")
 assert history("killed") == history("made")
 assert summary("killed")["best"]["parameters"] == told["best"]["parameters"]
 
+# The latent space of snapshots. Wigley's hull is linear in beam and draft, so that two modes hold it all and the way back
+# is exact; the command works for the snapshots, and once or twice for the way back, and never for a design.
+latent = write("latent.yaml", MAKING, ("timeout: 4", "timeout: 4\n  snapshots: 14"), ("flow:", "latent: {variance: 0.999999}\nflow:"))
+run(latent, "spanned")
+told = summary("spanned")
+beam, draft = told["best"]["parameters"]
+assert told["modes"] == 2 and told["parameters"] == 2 and 10 <= told["latent_samples"] <= 14, told["latent_samples"]
+assert told["best"]["cw"] < told["baseline"]["cw"] and told["best"]["parameters_residual"] < 1e-9, told["best"]
+assert abs(told["best"]["volume"] / (4 / 9 * 2.5 * beam * draft) - 1) < 1e-3
+assert abs(told["best"]["made_cw"] / told["best"]["cw"] - 1) < 1e-6
+made = command("nurbs", "hydrostatics", told["best"]["made"])
+assert abs(made["beam"] / beam - 1) < 1e-6 and abs(made["draft"] / draft - 1) < 1e-6, (made, beam, draft)
+assert 0.2 - 1e-4 <= beam <= 0.3 + 1e-4 and 0.13 - 1e-4 <= draft <= 0.19 + 1e-4
+works = len(os.listdir("latent/hulls"))
+assert works <= 1 + 14 + 2, works
+os.remove("spanned/report.html")
+hullopt("report", "spanned")
+assert summary("spanned") == told
+run(write("latent.yaml", MAKING, ("timeout: 4", "timeout: 4\n  snapshots: 14"), ("flow:", "latent: {variance: 0.999999}\nflow:"),
+          ("search: {initial: 8, iterations: 4}", "search: {method: gauss-newton, iterations: 2}")), "descended")
+assert summary("descended")["best"]["parameters_residual"] < 1e-9
+one = json.loads(hullopt("evaluate", "latent.yaml", "--parameters", f"{beam},{draft}", "--json"))
+assert abs(one["cw"] / told["best"]["cw"] - 1) < 1e-3, (one["cw"], told["best"]["cw"])
+killed = subprocess.Popen(["hullopt", "run", write("again.yaml", MAKING, ("timeout: 4", "timeout: 4\n  snapshots: 14"),
+                           ("flow:", "latent: {variance: 0.999999}\nflow:")), "--out", "again", "--threads", "1"], stderr=subprocess.DEVNULL)
+while not os.path.exists("again/run.db"):
+    assert killed.poll() is None
+    time.sleep(0.01)
+killed.send_signal(signal.SIGKILL)
+killed.wait()
+run("again.yaml", "again", "--resume")
+assert history("again") == history("spanned") and summary("again")["best"]["parameters"] == [beam, draft]
+
 # What else may go wrong: in the words of who noticed.
 for trouble, words in (("nothing", "it ended well, but hull.json: No such file"), ("nonsense", "hull.json"),
                        ("slow", "took longer than 4 s")):
@@ -198,6 +231,7 @@ for change, words in ((("{beam} {draft}", "{beem} {draft}"), "has {beem}"), (("[
                       (("[beam, draft]", "[beam, here]"), "here"), (("lower: [0.2, 0.13]", "lower: [0.2]"), "1 lower"),
                       (("flow:", "hull: make.sh\nflow:"), "expected one of them"),
                       (("search: {", "search: {method: gauss-newton, "), "derivatives"),
+                      (("timeout: 4", "snapshots: 2"), "expected more than the 2 parameters"),
                       (("timeout: 4", "timeout: 0"), "expected a number > 0"), (("timeout: 4", "file: a/b.json"), "without folders")):
     words_said = hullopt("check", write("wrong.yaml", MAKING, change), code=1)
     assert words in words_said, (change, words_said)

@@ -108,6 +108,10 @@ static const struct setting ROWS[] = {
         .count = offsetof(struct config, n_lower)),
     ROW("parameters.upper", NUMBER, upper, "to what they may go", .n_most = CONFIG_PARAMETERS_MOST,
         .count = offsetof(struct config, n_upper)),
+    ROW("parameters.snapshots", COUNT, snapshots,
+        "hulls of the command whose latent space is searched, by latent.variance; 0: the "
+        "parameters are searched themselves",
+        SETTING_FROM(0, 1e5), .otherwise = "0"),
     ROW("parameters.timeout", NUMBER, maker.timeout, "s after which the design has failed",
         SETTING_ABOVE(0), .otherwise = "600"),
     ROW("folder", TEXT, folder,
@@ -430,7 +434,7 @@ static void check_hull(struct settings_source *source, const struct config *c)
             settings_complain(source, "hull", "is missing: the hull's file, or parameters.command");
         if (!c->shape)
             settings_complain(source, "shape", "is missing: how the hull may be modified");
-        if (c->n_parameters)
+        if (c->n_parameters || c->snapshots)
             settings_complain(source, "parameters", "need parameters.command");
         return;
     }
@@ -451,9 +455,19 @@ static void check_hull(struct settings_source *source, const struct config *c)
             settings_complain(source, "parameters.original",
                               "has %g for %s, expected between %g and %g", c->original[k],
                               c->parameter[k], c->lower[k], c->upper[k]);
-    if (method_row(c->method)->kind == METHOD_DESCENT || c->design == CONFIG_DESIGN_FORECAST)
+    if (config_by_command(c) &&
+        (method_row(c->method)->kind == METHOD_DESCENT || c->design == CONFIG_DESIGN_FORECAST))
         settings_complain(source, "search",
-                          "is by derivatives, which the hulls of a command have not");
+                          "is by derivatives, which the hulls of a command have not: the latent "
+                          "space of parameters.snapshots has them");
+    if (c->snapshots && c->snapshots <= c->n_parameters)
+        settings_complain(source, "parameters.snapshots",
+                          "is %zu, expected more than the %zu "
+                          "parameters",
+                          c->snapshots, c->n_parameters);
+    if (c->snapshots && c->space)
+        settings_complain(source, "parameters.snapshots",
+                          "are for search.space latent; without them the parameters are searched");
 }
 
 static void check_commands(struct settings_source *source, const struct config *c)
@@ -495,6 +509,11 @@ static void check(struct settings_source *source, void *target)
 }
 
 const struct settings CONFIG = {sizeof ROWS / sizeof *ROWS, ROWS, .check = check};
+
+bool config_by_command(const struct config *config)
+{
+    return config->maker.command && !config->snapshots;
+}
 
 /* For messages: the original of a command has no file. */
 static void name_hull(struct config *config)

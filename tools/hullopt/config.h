@@ -56,6 +56,7 @@ struct config {
 
     struct config_command maker; /* in place of hull and shape: of parameters, */
     size_t n_parameters, n_original, n_lower, n_upper;
+    size_t snapshots; /* hulls of the command, whose latent space is searched; 0: the parameters */
     char *parameter[CONFIG_PARAMETERS_MOST]; /* by name, each from lower to upper */
     double original[CONFIG_PARAMETERS_MOST], lower[CONFIG_PARAMETERS_MOST],
         upper[CONFIG_PARAMETERS_MOST];
@@ -114,6 +115,10 @@ bool config_read(const char *path, const struct config_overrides *overrides, str
  * for a text that no version of this command wrote. */
 bool config_restore(const char *text, struct config *config);
 void config_free(struct config *config);
+
+/* Whether every design is a hull of parameters.command: else the latent space of a shape, or of
+ * snapshots of the command, moves the grid. */
+bool config_by_command(const struct config *config);
 
 /* What the fields of a command stand for: a fields_value with a struct config_fields. */
 struct config_fields {

@@ -99,8 +99,13 @@ static void print_hull(const struct plan *p)
            nurbs_surface_size(patch, 0), nurbs_surface_size(patch, 1),
            nurbs_hull_bound(problem->parent.hull));
     if (p->config.maker.command)
-        printf("%-16s%s\n%-16s%zu, which are searched directly\n", "command",
-               p->config.maker.command, "parameters", p->config.n_parameters);
+        printf("%-16s%s\n%-16s%zu", "command", p->config.maker.command, "parameters",
+               p->config.n_parameters);
+    if (config_by_command(&p->config))
+        printf(", which are searched directly\n");
+    else if (p->config.snapshots)
+        printf("\n%-16s%zu snapshots, %.4g %% of the variance\n", "latent space",
+               p->config.snapshots, 100 * p->config.variance);
     else
         printf("%-16s%s: %zu parameters\n%-16s%zu samples, %.4g %% of the variance\n", "shape",
                p->config.shape, galv_shape_parameters(p->shape), "latent space", p->config.samples,

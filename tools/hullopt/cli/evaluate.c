@@ -42,8 +42,6 @@ static bool check_count(const char *option, size_t given, size_t expected)
 static bool set_parameters(const struct options *options, struct asked *a)
 {
     const struct config *c = &a->config;
-    if (options->n_latent)
-        return cli_refuse("--latent: the hulls of parameters.command have parameters alone");
     a->u = malloc(c->n_parameters * sizeof *a->u);
     for (size_t k = 0; a->u && k < c->n_parameters; k++) {
         a->u[k] = options->parameters[k] - c->original[k];
@@ -52,6 +50,16 @@ static bool set_parameters(const struct options *options, struct asked *a)
                               options->parameters[k], c->lower[k], c->upper[k]);
     }
     return a->u || cli_refuse("out of memory");
+}
+
+/* The same where a latent space moves the grid. */
+static bool make_points(const struct options *options, struct asked *a)
+{
+    bool ok = set_parameters(options, a) && (problem_make_points(&a->problem, a->u, a->points) ||
+                                             cli_refuse("%s", core_sentence()));
+    free(a->u);
+    a->u = NULL;
+    return ok;
 }
 
 /* In the space of the run, so that a design has the figures that a run would give it. */
@@ -66,12 +74,16 @@ static bool move_points(const struct options *options, struct asked *a)
         return false;
     if (!problem_reduce(p, a->shape, &nobody))
         return cli_refuse("%s", core_sentence());
-    if (p->config->maker.command)
-        return set_parameters(options, a);
+    if (config_by_command(p->config))
+        return options->n_latent
+                   ? cli_refuse("--latent: the hulls of parameters.command have parameters alone")
+                   : set_parameters(options, a);
     if (options->n_latent)
         return check_count("latent", options->n_latent, galv_model_modes(p->model)) &&
                (galv_displace(p->model, options->latent, a->points) == GALV_OK ||
                 cli_refuse("%s", galv_last_error()));
+    if (p->config->maker.command)
+        return make_points(options, a);
     if (galv_shape_displace(a->shape, points, nurbs_grid_points(grid), options->parameters,
                             a->points) != GALV_OK)
         return cli_refuse("%s", galv_last_error());

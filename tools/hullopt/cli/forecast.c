@@ -55,7 +55,7 @@ int forecast_command(const struct options *options)
     struct forecast f;
     if (!config_read(options->path, NULL, &config))
         return CLI_FAILED;
-    if (config.maker.command || config.judge.command) {
+    if (config_by_command(&config) || config.judge.command) {
         config_free(&config);
         return cli_fail("%s: there is no forecast for commands, which have no derivatives",
                         options->path);

@@ -1,6 +1,7 @@
 #include "core/constraints.h"
 
 #include "core/particulars.h"
+#include "core/snapshots.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -192,9 +193,10 @@ static bool asks_particulars(const struct config *config)
 size_t limits_count(const struct config *config)
 {
     double value[2];
-    if (config->maker.command)
+    if (config_by_command(config))
         return 0;
-    size_t n = 1; /* the centre plane */
+    /* The centre plane, and the bounds of a command's parameters. */
+    size_t n = 1 + (config->snapshots ? 2 * config->n_parameters : 0);
     for (size_t k = 0; k < ROWS; k++) {
         const struct constraint c = row(k);
         if (c.known && !isnan(limit_of(&c, config)))
@@ -229,12 +231,13 @@ int limits_evaluate(void *user_data, size_t d, const double *u, double *value)
     const struct problem *problem = user_data;
     struct known known = {.problem = problem, .u = u};
     (void)d;
-    if (problem->config->maker.command)
+    if (config_by_command(problem->config))
         return 0;
     if (galv_limits_breadth(problem->limits, u, &known.least, &known.share) != GALV_OK)
         return 1;
     if (asks_particulars(problem->config) && !know_particulars(&known))
         return 1;
+    value += snapshots_excess(problem, u, value);
     *value++ = (parent_least(problem) - known.least) / problem_length(problem) - TOUCH;
     for (size_t k = 0; k < ROWS; k++) {
         const struct constraint c = row(k);
@@ -250,7 +253,7 @@ int limits_evaluate(void *user_data, size_t d, const double *u, double *value)
 
 double limits_excess(struct problem *problem, const double *u)
 {
-    double value[2 * ROWS + 1], most = -INFINITY;
+    double value[2 * ROWS + 1 + 2 * CONFIG_PARAMETERS_MOST], most = -INFINITY;
     size_t n = limits_count(problem->config);
     if (limits_evaluate(problem, galv_model_modes(problem->model), u, value) != 0)
         return INFINITY;
@@ -286,7 +289,7 @@ bool limits_kept(const struct config *config, const struct evaluation *e,
         const struct constraint *c = &TABLE[k];
         double ratio = c->figure(e, 0) / c->figure(parent, 0);
         char text[32];
-        if (!c->decides || config->maker.command || isnan(limit_of(c, config)) ||
+        if (!c->decides || config_by_command(config) || isnan(limit_of(c, config)) ||
             excess_of(c, config, ratio) <= 0)
             continue;
         print_limit(c, config, text);
@@ -299,7 +302,7 @@ bool limits_kept(const struct config *config, const struct evaluation *e,
 /* Whether it has to be built to be known, in this configuration. */
 static bool is_outcome(const struct constraint *c, const struct config *config)
 {
-    return (!c->known || config->maker.command) && !isnan(limit_of(c, config));
+    return (!c->known || config_by_command(config)) && !isnan(limit_of(c, config));
 }
 
 static size_t count_ratios(const struct constraint *c, const struct config *config)

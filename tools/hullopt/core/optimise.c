@@ -4,6 +4,7 @@
 #include "core/descent.h"
 #include "core/front.h"
 #include "core/search.h"
+#include "core/snapshots.h"
 #include "core/verify.h"
 #include "core/waves.h"
 
@@ -71,6 +72,8 @@ bool optimise_resume(struct problem *problem, const char *path)
     if (ok) {
         problem->ends = origin.ends;
         origin.ends = NULL;
+        problem->map = origin.map;
+        origin.map = NULL;
         ok = problem_recall(problem, origin.model, origin.gradient);
         origin.model = NULL;
         problem->initial = origin.initial;
@@ -83,7 +86,7 @@ bool optimise_resume(struct problem *problem, const char *path)
 bool optimise_set_best(struct problem *problem, const struct record *record,
                        const struct evaluation *best)
 {
-    bool command = problem->config->maker.command != NULL;
+    bool command = config_by_command(problem->config);
     if (command &&
         !record_get_points(record, best->id, galv_model_points(problem->model), &problem->found))
         return false;
@@ -118,7 +121,7 @@ static bool keep_parameters(const struct problem *problem, const galv_shape *sha
     if (!d)
         return core_no_memory();
     memcpy(x, u, galv_shape_parameters(shape) * sizeof *x);
-    if (problem->config->maker.command) {
+    if (config_by_command(problem->config)) {
         for (size_t k = 0; k < galv_shape_parameters(shape); k++)
             x[k] += problem->config->original[k];
         *residual = 0;
@@ -145,9 +148,28 @@ static bool map_parameters(const struct problem *problem, const galv_shape *shap
                      core_fail("back-mapping: %s", galv_last_error());
 }
 
+/* Of snapshots: the command's hull that is nearest, and what it is worth. One that the command
+ * refuses is no failure of the run. */
+static bool match_parameters(struct problem *problem, const double *u, struct record *record,
+                             const struct core_watch *watch, double *x, double *residual)
+{
+    struct snapshots_match match = {.x = x};
+    core_show(watch, "back to the command", 0, NULL);
+    if (!snapshots_match(problem, u, &match)) {
+        core_tell(watch, "the command makes no hull of the optimum: %s", core_sentence());
+        *residual = NAN;
+        for (size_t k = 0; k < problem->config->n_parameters; k++)
+            x[k] = NAN;
+        return true;
+    }
+    *residual = match.residual;
+    return record_put_text(record, "best.made", match.made) &&
+           record_put_array(record, "best.made.cw", 1, 1, &match.cw);
+}
+
 /* The parameters of the original family nearest to the best design. */
-static bool back_map(const struct problem *problem, const galv_shape *shape, const double *u,
-                     struct record *record)
+static bool back_map(struct problem *problem, const galv_shape *shape, const double *u,
+                     struct record *record, const struct core_watch *watch)
 {
     size_t n = galv_shape_parameters(shape), rows, columns;
     double residual, *known, *x = malloc(n * sizeof *x);
@@ -157,7 +179,8 @@ static bool back_map(const struct problem *problem, const galv_shape *shape, con
     if (ok)
         free(known);
     if (ok && !have)
-        ok = map_parameters(problem, shape, u, x, &residual) &&
+        ok = (problem->map ? match_parameters(problem, u, record, watch, x, &residual)
+                           : map_parameters(problem, shape, u, x, &residual)) &&
              record_put_array(record, "best.parameters", 1, n, x) &&
              record_put_array(record, "best.residual", 1, 1, &residual);
     free(x);
@@ -171,7 +194,7 @@ bool optimise_run(struct problem *problem, const galv_shape *shape, struct recor
     bool ok = (best || core_no_memory()) && search_run(problem, record, watch) &&
               build_best(problem, record, best) && verify_run(problem, record, watch) &&
               waves_run(problem, record, watch) &&
-              (!problem->best.hull || back_map(problem, shape, best, record)) &&
+              (!problem->best.hull || back_map(problem, shape, best, record, watch)) &&
               record_update_session(record);
     free(best);
     return ok;

@@ -2,6 +2,7 @@
 
 #include "core/external.h"
 #include "core/particulars.h"
+#include "core/snapshots.h"
 #include "shape_yaml.h"
 
 #include <math.h>
@@ -97,7 +98,7 @@ bool problem_read_points(struct problem *problem, const char *path, double *poin
 }
 
 /* The command's hull; of a run that is only looked at, the one on record. */
-static bool make_points(struct problem *problem, const double *u, double *points)
+bool problem_make_points(struct problem *problem, const double *u, double *points)
 {
     char path[CONFIG_PATH];
     if (problem->found)
@@ -116,9 +117,10 @@ bool problem_build(struct problem *problem, const double *u, struct design *desi
     problem->made[0] = '\0';
     if (!u)
         return build(problem, nurbs_grid_points(problem->grid), design);
-    if (problem->config->maker.command ? !make_points(problem, u, points)
-                                       : galv_displace(problem->model, u, points) != GALV_OK)
-        return problem->config->maker.command ? false : core_fail("grid: %s", galv_last_error());
+    if (config_by_command(problem->config) ? !problem_make_points(problem, u, points)
+                                           : galv_displace(problem->model, u, points) != GALV_OK)
+        return config_by_command(problem->config) ? false
+                                                  : core_fail("grid: %s", galv_last_error());
     return build(problem, points, design);
 }
 
@@ -256,6 +258,8 @@ void problem_free(struct problem *problem)
     galv_model_free(problem->model);
     free(problem->initial);
     free(problem->ends);
+    free(problem->map);
+    free(problem->back);
     free(problem->found);
     nurbs_grid_free(problem->grid);
     nurbs_grid_free(problem->moved);
@@ -310,7 +314,7 @@ static bool share_space(struct problem *problem)
 bool problem_recall(struct problem *problem, galv_model *model, const double *gradient)
 {
     problem->model = model;
-    if (!share_space(problem))
+    if (!share_space(problem) || (problem->map && !snapshots_invert(problem)))
         return false;
     if (galv_limits_create(model, nurbs_grid_rows(problem->grid), nurbs_grid_columns(problem->grid),
                            design_nu_s(&problem->parent), &problem->limits) != GALV_OK ||
@@ -331,7 +335,7 @@ static bool make_ends(struct problem *problem)
         size_t i = k / 2;
         double end = k % 2 ? config->upper[i] : config->lower[i];
         u[i] = end - config->original[i];
-        ok = make_points(problem, u, problem->ends + k * length) ||
+        ok = problem_make_points(problem, u, problem->ends + k * length) ||
              core_fail("%s: the hull at %s = %g cannot be had (%s)", config->path,
                        config->parameter[i], end, core_sentence());
         u[i] = 0;
@@ -394,6 +398,14 @@ static double built_volume(void *user_data, const double *points)
     return volume;
 }
 
+static bool take_model(struct problem *problem, galv_model *model)
+{
+    return problem_recall(problem, model, NULL) &&
+           (config_by_command(problem->config) ||
+            galv_limits_linearise(problem->limits, built_volume, problem) == GALV_OK ||
+            core_fail("%s: %s", problem->config->shape, galv_last_error()));
+}
+
 bool problem_reduce(struct problem *problem, const galv_shape *shape,
                     const struct core_watch *watch)
 {
@@ -409,17 +421,16 @@ bool problem_reduce(struct problem *problem, const galv_shape *shape,
     options.progress_user_data = &show;
     size_t points = nurbs_grid_rows(problem->grid) * nurbs_grid_columns(problem->grid);
     const double *xyz = nurbs_grid_points(problem->grid);
-    if (config->maker.command && !make_ends(problem))
+    if (config_by_command(config) && !make_ends(problem))
         return false;
+    if (config->snapshots)
+        return snapshots_reduce(problem, &options, watch, &model) && take_model(problem, model);
     galv_status status =
-        config->space || config->maker.command
+        config->space || config_by_command(config)
             ? galv_build_parameters(shape, points, xyz, &model)
             : galv_build(shape, points, xyz, galv_uniform(config->samples, config->latent_seed),
                          &options, &model);
     if (status != GALV_OK)
         return core_fail("%s: %s", config->shape, galv_last_error());
-    return problem_recall(problem, model, NULL) &&
-           (config->maker.command ||
-            galv_limits_linearise(problem->limits, built_volume, problem) == GALV_OK ||
-            core_fail("%s: %s", config->shape, galv_last_error()));
+    return take_model(problem, model);
 }

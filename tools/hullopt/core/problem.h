@@ -29,6 +29,8 @@ struct problem {
     nurbs_grid *moved;  /* of the design at hand */
     char made[CONFIG_PATH]; /* file of its hull, where a command made that */
     double *ends;  /* grids of the command's hulls at the lower and upper end of each parameter */
+    double *map;   /* latent coordinates by the parameters of snapshots; NULL: there are none */
+    double *back;  /* and these by those */
     double *found; /* grid of its best hull, of a run that is looked at; NULL: not known */
     struct design parent; /* built from its grid like every design */
     struct design best;   /* empty before problem_set_best(), and when nothing is better */
@@ -69,6 +71,8 @@ bool problem_set_best(struct problem *problem, const double *u);
 
 /* Fills the grid points of the hull in a file that the command made. */
 bool problem_read_points(struct problem *problem, const char *path, double *points);
+/* The same of a command's hull: of parameters, less the original's. */
+bool problem_make_points(struct problem *problem, const double *u, double *points);
 /* The family of designs: that of the shape file, or the command's. NULL with a sentence, which for
  * a shape file is printed. */
 galv_shape *problem_shape(struct problem *problem);

@@ -275,7 +275,7 @@ static bool get_model(const struct record *record, galv_model **model)
     return ok;
 }
 
-static const char INITIAL[] = "initial", ENDS[] = "parameters.ends";
+static const char INITIAL[] = "initial", ENDS[] = "parameters.ends", MAP[] = "parameters.map";
 
 static void name_points(uint64_t id, char name[40])
 {
@@ -318,6 +318,8 @@ bool record_put_origin(struct record *record, const struct problem *problem)
            (!problem->ends ||
             record_put_array(record, ENDS, 2 * galv_model_modes(problem->model),
                              3 * galv_model_points(problem->model), problem->ends)) &&
+           (!problem->map || record_put_array(record, MAP, galv_model_modes(problem->model),
+                                              problem->config->n_parameters, problem->map)) &&
            record_put_text(record, CONFIGURATION, problem->config->text) &&
            record_put_array(record, FORMAT_NAME, 1, 1, &format);
 }
@@ -364,6 +366,7 @@ static bool read_origin(const struct record *record, struct origin *o)
         !get_numbers(record, "grid", 2, grid) || !get_model(record, &o->model) ||
         !record_get_array(record, INITIAL, &rows, &columns, &o->initial) ||
         !record_get_array(record, ENDS, &rows, &columns, &o->ends) ||
+        !record_get_array(record, MAP, &rows, &columns, &o->map) ||
         !record_get_array(record, "volume.gradient", &rows, &columns, &o->gradient))
         return false;
     for (int k = 0; k < 2; k++)
@@ -394,6 +397,7 @@ void origin_free(struct origin *origin)
     free(origin->gradient);
     free(origin->initial);
     free(origin->ends);
+    free(origin->map);
     galv_model_free(origin->model);
     *origin = (struct origin){0};
 }

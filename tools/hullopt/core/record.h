@@ -24,6 +24,7 @@ struct origin {
     double *gradient; /* of the volume, modes numbers, or NULL */
     double *initial;  /* of a search, search.initial x modes numbers, or NULL */
     double *ends;     /* problem.ends, or NULL */
+    double *map;      /* problem.map, or NULL */
     size_t grid[2];
     double length;
 };

@@ -87,7 +87,7 @@ static void cards(FILE *out, const struct results *r)
     snprintf(value, sizeof value, "%+.2f %%", 100 * (r->best->volume_ratio - 1));
     card(out, value, "displacement");
     snprintf(value, sizeof value, "%zu of %zu", galv_model_modes(r->problem->model),
-             galv_model_parameters(r->problem->model));
+             results_parameters(r));
     snprintf(label, sizeof label, "latent variables, %.2f %% of the variance",
              100 * galv_model_retained(r->problem->model));
     card(out, value, label);

@@ -12,7 +12,7 @@ static void name_directions(const struct results *r, char (*text)[NAME], char **
 {
     const struct config *c = r->problem->config;
     for (size_t j = 0; j < r->model.d; j++) {
-        if (c->maker.command)
+        if (config_by_command(c))
             snprintf(text[j], NAME, "%.39s", c->parameter[j]);
         else
             snprintf(text[j], NAME, "%s %zu", c->space ? "parameter" : "direction", j + 1);

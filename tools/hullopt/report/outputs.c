@@ -106,7 +106,7 @@ static bool print_figures(const struct results *r, const char *folder)
 {
     struct results_times times = results_times(r);
     printf("%-22s%zu of %zu parameters, %.2f %% of the variance\n", "latent variables",
-           galv_model_modes(r->problem->model), galv_model_parameters(r->problem->model),
+           galv_model_modes(r->problem->model), results_parameters(r),
            100 * galv_model_retained(r->problem->model));
     print_front(r);
     if (r->problem->config->judge.command)
@@ -124,6 +124,9 @@ static bool print_figures(const struct results *r, const char *folder)
         if (isfinite(f.ratio) && !(f.is_optional && isnan(f.allowed)))
             printf("%-22s%+.2f %%, limit %s\n", f.name, 100 * f.change, f.limit);
     }
+    if (r->made)
+        printf("%-22s%.2g m from the optimum, C_w %.4e: %s\n", "hull of the command", r->residual,
+               r->made_cw, r->made);
     printf("%-22s%zu evaluated, %zu failed\n", "designs", r->n - 1, r->failed);
     printf("%-22s%.2f s: geometry %.2f, solve %.2f; proposing %.2f\n", "one evaluation",
            times.evaluation, times.geometry, times.solve, times.propose);

@@ -55,13 +55,18 @@ static bool read_evaluations(const struct record *record, size_t design, struct 
 static bool read_parameters(const struct record *record, struct results *r)
 {
     size_t one, n;
-    double *residual;
+    double *residual, *made = NULL;
     if (!record_get_array(record, "best.parameters", &one, &r->n_parameters, &r->parameters) ||
         !record_get_array(record, "best.residual", &one, &n, &residual))
         return false;
     if (residual && one * n == 1)
         r->residual = *residual;
     free(residual);
+    if (!record_get_text(record, "best.made", &r->made) ||
+        !record_get_array(record, "best.made.cw", &one, &n, &made))
+        return false;
+    r->made_cw = made ? *made : (double)NAN;
+    free(made);
     return true;
 }
 
@@ -116,6 +121,12 @@ bool results_read(struct problem *problem, const struct record *record, size_t d
     return true;
 }
 
+size_t results_parameters(const struct results *r)
+{
+    const struct config *config = r->problem->config;
+    return config->maker.command ? config->n_parameters : galv_model_parameters(r->problem->model);
+}
+
 double results_objective(const struct results *r, size_t k, const struct evaluation *e)
 {
     const struct config *config = r->problem->config;
@@ -133,6 +144,7 @@ void results_free(struct results *r)
     free(r->front);
     free(r->rows);
     free(r->parameters);
+    free(r->made);
     free(r->stop);
     *r = (struct results){0};
 }

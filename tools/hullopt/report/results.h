@@ -25,6 +25,8 @@ struct results {
     double *parameters;    /* of the optimum, NULL when not there; residual in metres */
     size_t n_parameters;
     double residual;
+    char *made; /* of snapshots: file of the command's hull nearest to the optimum, or NULL */
+    double made_cw;
     double seconds;
     size_t sessions;
 };
@@ -34,6 +36,9 @@ struct results {
 bool results_read(struct problem *problem, const struct record *record, size_t design,
                   struct results *results);
 void results_free(struct results *results);
+
+/* Of the family: those of the command, where one makes it. */
+size_t results_parameters(const struct results *results);
 
 /* Value k of a design as it is shown: objectives_value() times the scale of objective k. */
 double results_objective(const struct results *results, size_t k, const struct evaluation *e);

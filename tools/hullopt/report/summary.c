@@ -261,10 +261,11 @@ static json_t *failures(const struct results *r)
     return list;
 }
 
-static void put_latent(json_t *o, const galv_model *model)
+static void put_latent(json_t *o, const struct results *r)
 {
+    const galv_model *model = r->problem->model;
     put_count(o, "modes", galv_model_modes(model));
-    put_count(o, "parameters", galv_model_parameters(model));
+    put_count(o, "parameters", results_parameters(r));
     put_count(o, "latent_samples", galv_model_samples(model));
     put(o, "retained_variance", galv_model_retained(model));
     put(o, "retained_variance_fresh", galv_model_confidence(model).retained_fresh);
@@ -288,6 +289,10 @@ json_t *summary_make(const struct results *r)
         json_result_set(best, "parameters", array(r->n_parameters, r->parameters));
         put(best, "parameters_residual", r->residual);
     }
+    if (r->made) {
+        json_result_set(best, "made", json_string(r->made));
+        put(best, "made_cw", r->made_cw);
+    }
     json_result_set(o, "baseline", evaluation(r, r->baseline));
     json_result_set(o, "best", best);
     if (objectives_count(r->problem->config) > 1)
@@ -300,7 +305,7 @@ json_t *summary_make(const struct results *r)
     put_count(o, "evaluations", r->n - 1); /* without the parent */
     put_count(o, "initial_samples", r->problem->config->initial);
     put_count(o, "failed_designs", r->failed);
-    put_latent(o, r->problem->model);
+    put_latent(o, r);
     put(o, "seconds", r->seconds);
     put(o, "seconds_per_evaluation", times.evaluation);
     put(o, "seconds_geometry", times.geometry);

@@ -201,7 +201,12 @@ static void optimum_parameters(FILE *out, const struct results *r)
     if (!r->parameters)
         return;
     if (r->problem->config->maker.command) {
-        fputs("<p class=\"note\">Parameters of the command:</p><p><code>", out);
+        fputs("<p class=\"note\">Parameters of the command", out);
+        if (r->made)
+            fprintf(out,
+                    ", whose hull is nearest: %.2f mm root mean square from the optimum, C_w %.4e",
+                    1e3 * r->residual, r->made_cw);
+        fputs(":</p><p><code>", out);
         for (size_t k = 0; k < r->n_parameters; k++)
             fprintf(out, "%s%s = %.6g", k ? ", " : "", r->problem->config->parameter[k],
                     r->parameters[k]);
