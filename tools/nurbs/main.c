@@ -18,6 +18,16 @@ static const subcommand *find_command(const char *name)
     return NULL;
 }
 
+static const char COMMON[] =
+    "  --json         print one JSON object on standard output and nothing else\n"
+    "  --threads N    threads to use\n";
+
+static int print_own_help(const subcommand *command)
+{
+    fputs(command->help, stdout);
+    return cli_print(COMMON);
+}
+
 static int print_help(void)
 {
     printf("nurbs - make, look at, fit, simplify and convert NURBS hulls\n\n"
@@ -27,10 +37,8 @@ static int print_help(void)
         printf("  %-13s %s\n", commands[k]->name, commands[k]->summary);
     for (size_t k = 0; k < COMMANDS; k++)
         printf("\n%s", commands[k]->help);
+    printf("\nOptions of every command:\n%s", COMMON);
     return cli_print(
-        "\nOptions of every command:\n"
-        "  --json         print one JSON object on standard output and nothing else\n"
-        "  --threads N    threads to use\n"
         "  --help         print this text, or the text of a command\n"
         "  --version      print the version\n\n"
         "Files: .json (NURBS file, see docs/nurbs.md), .igs, .iges, .step and .stp are\n"
@@ -56,7 +64,7 @@ static int run_nurbs(int argc, char **argv)
     cli_set_name(name);
     for (int k = 2; k < argc; k++) {
         if (strcmp(argv[k], "--help") == 0)
-            return cli_print(command->help);
+            return print_own_help(command);
         if (strcmp(argv[k], "--version") == 0)
             return cli_version();
     }
