@@ -479,6 +479,13 @@ module igabem_c
       real(c_double), value :: level
       type(nurbs_hydrostatics), intent(inout), optional :: result
     end function
+    integer(c_int) function nurbs_hydrostatics_whole(n, wetted, level, result) bind(c)
+      import
+      integer(c_size_t), value :: n
+      type(c_ptr), intent(in) :: wetted(*)
+      real(c_double), value :: level
+      type(nurbs_hydrostatics), intent(inout), optional :: result
+    end function
     integer(c_int) function nurbs_transom_patches(n, wetted, level, closes) bind(c)
       import
       integer(c_size_t), value :: n
