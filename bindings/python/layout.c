@@ -123,6 +123,7 @@ static void print_igabem(void)
     D(igabem_forces, cw_pressure_linear);
     D(igabem_forces, cw_run_up);
     D(igabem_forces, cw_transom);
+    D(igabem_forces, cw_momentum);
     D(igabem_forces, sinkage);
     D(igabem_forces, trim);
     D(igabem_forces, condition);

@@ -184,7 +184,8 @@ module igabem_c
     type(igabem_cost) :: cost
     real(c_double) :: unknowns_per_wave
     real(c_double) :: cw_error
-    real(c_double) :: reserved(7)
+    real(c_double) :: cw_momentum
+    real(c_double) :: reserved(6)
   end type
 
   type, bind(c) :: igabem_equilibrium

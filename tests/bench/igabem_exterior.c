@@ -1,6 +1,6 @@
 /* The potential on hull and free surface beside exact values, the Kelvin solver and itself.
- * Usage: igabem_bench_exterior spheroid | wigley | code | double-model | HULL.json... | cut CELLS
- * HULL.json... (no argument: the first three; double-model: for the hulls named after it) */
+ * Usage: igabem_bench_exterior spheroid | wigley | code | [double-model] HULL.json... |
+ * [double-model] cut|pressure CELLS HULL.json... (no argument: the first three) */
 #include <igabem/igabem.h>
 #include <nurbs/nurbs.h>
 
@@ -30,7 +30,7 @@ static void sweep(const igabem_hull *hull, const igabem_options *setting, size_t
     for (size_t k = 0; k < n; k++) {
         options[k] = *setting;
         options[k].froude = froude[k];
-        forces[k].cw = forces[k].cw_l2 = forces[k].cw_pressure = forces[k].cw_transom = NAN;
+        forces[k].cw = forces[k].cw_l2 = forces[k].cw_momentum = NAN;
     }
     if (igabem_solve_many(hull, n, options, solutions)) {
         fprintf(stderr, "%s\n", igabem_last_error());
@@ -41,13 +41,6 @@ static void sweep(const igabem_hull *hull, const igabem_options *setting, size_t
             fprintf(stderr, "%s\n", igabem_last_error());
         igabem_solution_free(solutions[k]);
     }
-}
-
-/* What the momentum of the solution gives (docs/theory.md, section 7). */
-static double momentum(const igabem_forces *forces)
-{
-    double transom = isfinite(forces->cw_transom) ? forces->cw_transom : 0.0;
-    return forces->cw_pressure - 2.0 * forces->cw_run_up + transom;
 }
 
 static igabem_hull *body(nurbs_status made, nurbs_surface *surface)
@@ -179,7 +172,7 @@ static void wigleys(void)
                    row[r].cells);
             for (int k = 0; k < 4; k++)
                 printf(" %.4f, %.4f |", forces[k].cw / thin[k].cw,
-                       momentum(&forces[k]) / thin[k].cw);
+                       forces[k].cw_momentum / thin[k].cw);
             printf("\n");
             fflush(stdout);
         }
@@ -228,7 +221,7 @@ static void settings(const char *path)
         sweep(hull, &options, 3, froude, forces);
         printf("| %s |", row[r].name);
         for (int k = 0; k < 3; k++) {
-            printf(" %.3f; %.3f |", 1e3 * forces[k].cw, 1e3 * momentum(&forces[k]));
+            printf(" %.3f; %.3f |", 1e3 * forces[k].cw, 1e3 * forces[k].cw_momentum);
         }
         printf(" %.2f |\n", forces[0].seconds);
         fflush(stdout);
@@ -251,61 +244,101 @@ static double kochin_within(const igabem_solution *solution, double limit)
     return sum;
 }
 
-/* One solution: C_w, its part of t < 4, and what cuts so far off the side say over that part. */
-static void cut_row(const char *name, const igabem_hull *hull, const igabem_options *options)
+/* One solution: C_w, its part of t < 4, what cuts so far off the side say over that part, and what
+ * its momentum says over C_w. */
+static void cut_row(const char *name, const igabem_hull_info *info, const igabem_solution *solution)
 {
     static const double off[] = {0.05, 0.10, 0.15, 0.20};
-    igabem_solution *solution = NULL;
-    igabem_forces forces;
-    igabem_hull_info info;
-    igabem_hull_get_info(hull, &info);
-    if (igabem_solve(hull, options, &solution) || igabem_forces_compute(solution, &forces)) {
-        fprintf(stderr, "%s\n", igabem_last_error());
-        igabem_solution_free(solution);
-        return;
-    }
+    const igabem_options *options = igabem_solution_options(solution);
     double within = kochin_within(solution, 4.0);
+    igabem_forces forces;
+    if (igabem_forces_compute(solution, &forces))
+        fprintf(stderr, "%s\n", igabem_last_error());
     printf("| %s | %s | %g | %.2f | %.4f | %.4f |", name,
            igabem_formulation_name(options->formulation), options->surface_cells, options->froude,
            1e3 * forces.cw, 1e3 * within);
     for (size_t k = 0; k < sizeof off / sizeof *off; k++) {
-        double cw = NAN, y = 0.5 * info.hydrostatics.beam + off[k] * info.length;
+        double cw = NAN, y = 0.5 * info->hydrostatics.beam + off[k] * info->length;
         if (igabem_wave_cut(solution, y, &cw))
             fprintf(stderr, "%s\n", igabem_last_error());
         printf(" %.3f |", cw / within);
     }
-    printf("\n");
+    printf(" %.3f |\n", forces.cw_momentum / forces.cw);
     fflush(stdout);
-    igabem_solution_free(solution);
 }
+
+static igabem_hull *read_hull(const char *path, nurbs_hull **source)
+{
+    igabem_hull *hull = NULL;
+    if (nurbs_hull_read(path, NULL, source) || igabem_hull_from(*source, &hull)) {
+        fprintf(stderr, "%s: %s %s\n", path, nurbs_last_error(), igabem_last_error());
+        nurbs_hull_free(*source);
+        *source = NULL;
+    }
+    return hull;
+}
+
+static const char *name_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+enum { SHIP_SPEEDS = 3 };
+static const double ship_froude[SHIP_SPEEDS] = {0.28, 0.35, 0.41};
 
 /* Waves on the solved surface beside the Kochin function of the same solution. */
 static void cuts(double cells, const char *path)
 {
-    static const double froude[] = {0.28, 0.35, 0.41};
-    static const igabem_formulation rows[] = {IGABEM_FORMULATION_DOUBLE_MODEL,
-                                              IGABEM_FORMULATION_EXTERIOR};
     nurbs_hull *source = NULL;
-    igabem_hull *hull = NULL;
-    const char *name = strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
-    if (nurbs_hull_read(path, NULL, &source) || igabem_hull_from(source, &hull)) {
-        fprintf(stderr, "%s: %s %s\n", path, nurbs_last_error(), igabem_last_error());
-        nurbs_hull_free(source);
+    igabem_hull *hull = read_hull(path, &source);
+    igabem_options options[SHIP_SPEEDS];
+    igabem_solution *solutions[SHIP_SPEEDS] = {NULL};
+    igabem_hull_info info;
+    if (!hull)
         return;
+    igabem_hull_get_info(hull, &info);
+    for (size_t k = 0; k < SHIP_SPEEDS; k++) {
+        options[k] = exterior(cells);
+        options[k].froude = ship_froude[k];
+        options[k].elements_u = 48;
+        options[k].elements_v = 10;
+        options[k].surface_rows = round(0.55 * cells);
+        options[k].surface_side = 0.8;
+        options[k].surface_downstream = 1.3;
     }
-    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++)
-        for (size_t k = 0; k < sizeof froude / sizeof *froude; k++) {
-            igabem_options options = exterior(cells);
-            options.formulation = rows[r];
-            options.froude = froude[k];
-            options.elements_u = 48;
-            options.elements_v = 10;
-            options.surface_rows = round(0.55 * cells);
-            options.surface_side = 0.8;
-            options.surface_downstream =
-                fmax(1.0, 1.25 * 2.0 * 3.141592653589793 * froude[k] * froude[k]);
-            cut_row(name, hull, &options);
-        }
+    if (igabem_solve_many(hull, SHIP_SPEEDS, options, solutions))
+        fprintf(stderr, "%s\n", igabem_last_error());
+    for (size_t k = 0; k < SHIP_SPEEDS; k++) {
+        if (solutions[k])
+            cut_row(name_of(path), &info, solutions[k]);
+        igabem_solution_free(solutions[k]);
+    }
+    igabem_hull_free(hull);
+    nurbs_hull_free(source);
+}
+
+/* What the hull feels, and what the momentum says, beside the Kochin function. */
+static void pressures(double cells, const char *path)
+{
+    nurbs_hull *source = NULL;
+    igabem_hull *hull = read_hull(path, &source);
+    igabem_options options = exterior(cells);
+    igabem_forces forces[MOST_SPEEDS];
+    if (!hull)
+        return;
+    options.elements_u = 48;
+    options.elements_v = 10;
+    sweep(hull, &options, SHIP_SPEEDS, ship_froude, forces);
+    for (size_t k = 0; k < SHIP_SPEEDS; k++) {
+        double transom = isfinite(forces[k].cw_transom) ? forces[k].cw_transom : 0.0;
+        double felt = forces[k].cw_pressure + transom;
+        printf("| %s | %.2f | %.4f | %.4f (%.2f) | %.4f (%.2f) | %.4f | %.4f |\n", name_of(path),
+               ship_froude[k], 1e3 * forces[k].cw, 1e3 * forces[k].cw_momentum,
+               forces[k].cw_momentum / forces[k].cw, 1e3 * felt, felt / forces[k].cw,
+               1e3 * forces[k].cw_run_up, 1e3 * transom);
+    }
+    fflush(stdout);
     igabem_hull_free(hull);
     nurbs_hull_free(source);
 }
@@ -322,9 +355,14 @@ int main(int argc, char **argv)
         else if (strcmp(argv[k], "cut") == 0 && k + 2 < argc) {
             printf(
                 "| hull | formulation | cells | Fr | C_w x 1000 | t < 4 | cut at 0.05 L, over it "
-                "| 0.10 | 0.15 | 0.20 |\n");
+                "| 0.10 | 0.15 | 0.20 | momentum |\n");
             for (double cells = atof(argv[++k]); k + 1 < argc;)
                 cuts(cells, argv[++k]);
+        } else if (strcmp(argv[k], "pressure") == 0 && k + 2 < argc) {
+            printf("| hull | Fr | C_w x 1000 | momentum | pressure and transom | run-up | transom "
+                   "|\n");
+            for (double cells = atof(argv[++k]); k + 1 < argc;)
+                pressures(cells, argv[++k]);
         } else if (igabem_formulation_parse(argv[k], &settings_of))
             continue;
         else

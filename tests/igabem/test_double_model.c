@@ -149,9 +149,44 @@ static void test_sweep(void)
     igabem_hull_free(hull);
 }
 
+/* Hull and still water have given away what the waves carry, by the Kochin function: a hull at the
+ * surface, and one below, where no mesh is short of anything. */
+static void test_momentum(void)
+{
+    igabem_hull *hull = wigley_hull(0.1, 0.0625, 24, 6);
+    double apart[2];
+    for (int k = 0; k < 2; k++) {
+        igabem_options options = double_model(0.35, k ? 32.0 : 20.0);
+        igabem_solution *solution = solve(hull, &options);
+        igabem_forces forces;
+        CU_ASSERT_EQUAL_FATAL(igabem_forces_compute(solution, &forces), IGABEM_OK);
+        apart[k] = forces.cw_momentum / forces.cw - 1.0;
+        /* What the hull feels has the run-up in it. */
+        CU_ASSERT_TRUE(forces.cw_run_up > 0.2 * forces.cw);
+        CHECK_CLOSE(forces.cw_pressure / forces.cw, 1.4, 0.1);
+        CU_ASSERT_PTR_NULL(igabem_solution_warning(solution, &forces, 0));
+        igabem_solution_free(solution);
+    }
+    CHECK_CLOSE(apart[0], 0.0, 0.04);
+    CHECK_CLOSE(apart[1], 0.0, 0.04);
+    igabem_hull_free(hull);
+    hull = ellipsoid_hull(1.0, 0.2, 0.2, 0.16, 6, 2);
+    igabem_options options = double_model(0.4, 16.0);
+    options.surface_rows = 10.0;
+    options.surface_upstream = 1.0;
+    options.surface_downstream = 1.5;
+    options.surface_side = 0.8;
+    igabem_solution *solution = solve(hull, &options);
+    igabem_forces forces;
+    CU_ASSERT_EQUAL_FATAL(igabem_forces_compute(solution, &forces), IGABEM_OK);
+    CHECK_RELATIVE(forces.cw_momentum, forces.cw, 0.01);
+    igabem_solution_free(solution);
+    igabem_hull_free(hull);
+}
+
 static const struct check_case cases[] = {
     {"double-body flow", test_flow}, {"thin hull", test_thin}, {"elevation", test_elevation},
-    {"towing tank", test_tank},      {"sweep", test_sweep},
+    {"towing tank", test_tank},      {"sweep", test_sweep},    {"momentum", test_momentum},
 };
 
 CHECK_MAIN("double model", cases)

@@ -177,12 +177,10 @@ static igabem_status survey(const struct solve_run *run, const igabem_solution *
 static void refer_to_rest(const struct solve_run *run, struct solve_result *result)
 {
     igabem_forces *forces = &result->forces;
-    double *coefficients[] = {&forces->cw,
-                              &forces->cw_pressure,
-                              &forces->cw_pressure_linear,
-                              &forces->cw_cutoff_lower,
-                              &forces->cw_cutoff_upper,
-                              &result->cw_cut};
+    double *coefficients[] = {
+        &forces->cw,          &forces->cw_pressure,     &forces->cw_pressure_linear,
+        &forces->cw_momentum, &forces->cw_cutoff_lower, &forces->cw_cutoff_upper,
+        &result->cw_cut};
     for (size_t k = 0; k < sizeof coefficients / sizeof *coefficients; k++)
         *coefficients[k] *= forces->wetted_area / run->area_at_rest;
     forces->wetted_area = run->area_at_rest;
@@ -208,6 +206,7 @@ static const igabem_forces no_forces = {.speed = NAN,
                                         .cw_pressure_linear = NAN,
                                         .cw_run_up = NAN,
                                         .cw_transom = NAN,
+                                        .cw_momentum = NAN,
                                         .cw_cutoff_lower = NAN,
                                         .cw_cutoff_upper = NAN,
                                         .share_beyond_cutoff = NAN,

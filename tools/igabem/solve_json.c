@@ -106,6 +106,7 @@ static json_t *result_json(const struct solve_run *run, const struct solve_resul
     json_result_set(json, "cw_pressure_linear", real(f->cw_pressure_linear));
     json_result_set(json, "cw_run_up", real(f->cw_run_up));
     json_result_set(json, "cw_transom", real(f->cw_transom));
+    json_result_set(json, "cw_momentum", real(f->cw_momentum));
     json_result_set(json, "cw_l2", real(f->cw_l2));
     json_result_set(json, "rw", real(f->rw));
     json_result_set(json, "rw_over_weight", real(f->rw / weight));

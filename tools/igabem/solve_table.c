@@ -104,6 +104,8 @@ static void print_result(const struct solve_run *run, const struct solve_result 
     }
     if (isfinite(f->cw_transom))
         printf("  a dry transom adds %.4e to C_w by pressure\n", f->cw_transom);
+    if (isfinite(f->cw_momentum))
+        printf("  C_w by the momentum of the water %.4e\n", f->cw_momentum);
     if (isfinite(result->cw_cut))
         printf("  C_w by a longitudinal wave cut %.4e\n", result->cw_cut);
     if (isfinite(result->share[0]))

@@ -160,11 +160,11 @@ typedef struct igabem_forces {
     double rw;                  /**< wave resistance by the Kochin function, N */
     double cw;                  /**< its coefficient */
     double cw_l2;               /**< rw / (rho U^2 L^2 / 2) */
-    double cw_pressure;         /**< by integrating the pressure over the hull */
+    double cw_pressure;         /**< by integrating the pressure over the hull; of double-model the
+                                   pressure linear in what the flow differs from the double
+                                   body's by */
     double cw_pressure_linear;  /**< the same without the quadratic and run-up terms */
-    double cw_run_up;  /**< part of cw_pressure from the strip between water and wave. The momentum
-                          of the linear problem (neumann-kelvin, exterior) says cw = cw_pressure -
-                          2 cw_run_up + cw_transom (docs/theory.md, section 7) */
+    double cw_run_up;           /**< part of cw_pressure from the strip between water and wave */
     double cw_transom; /**< what a dry transom adds to cw_pressure: the hydrostatic pressure
                           that is missing on it; NAN without an open transom */
     double cw_cutoff_lower,
@@ -185,7 +185,10 @@ typedef struct igabem_forces {
                                  the same equations give on half the knots, within a factor of 3
                                  for three meshes out of five, else mostly more
                                  (docs/validation.md). NAN without a solve and with a potential */
-    double reserved[7];       /**< 0: room for members of later releases */
+    double cw_momentum; /**< what the momentum of the water that was solved says of cw, equal to
+                           it but for discretisation (docs/theory.md, sections 7 and 14); NAN
+                           where the two have none in common */
+    double reserved[6]; /**< 0: room for members of later releases */
 } igabem_forces;
 
 /** Fills forces. */

@@ -122,14 +122,13 @@ static igabem_status differentiate(const struct free_surface *surface, size_t la
 
 igabem_status base_flow_create(const struct influence *hull, const struct free_surface *surface,
                                const struct transom *transom, const struct influence *face,
-                               struct base_point **points)
+                               double *on_hull, struct base_point **points)
 {
-    size_t n = hull->density->n, layers = transom ? 2 : 1;
-    double *on_hull = malloc(n * sizeof *on_hull);
+    size_t layers = transom ? 2 : 1;
     double *on_face = calloc(transom ? transom->coefficients : 1, sizeof *on_face);
     struct plane_layer layer[2] = {{.phi = NULL}};
     *points = malloc(surface->nx * surface->ny * sizeof **points);
-    igabem_status status = on_hull && on_face && *points ? IGABEM_OK : no_memory();
+    igabem_status status = on_face && *points ? IGABEM_OK : no_memory();
     if (status == IGABEM_OK)
         status = potential(hull, transom, face, on_hull);
     for (size_t j = 0; transom && j < transom->n && status == IGABEM_OK; j++)
@@ -143,7 +142,6 @@ igabem_status base_flow_create(const struct influence *hull, const struct free_s
         status = differentiate(surface, layers, layer, hull->threads, *points);
     for (size_t k = 0; k < layers; k++)
         plane_layer_free(&layer[k]);
-    free(on_hull);
     free(on_face);
     if (status != IGABEM_OK) {
         free(*points);
@@ -179,14 +177,16 @@ void base_flow_at(const struct free_surface *surface, const struct base_point *p
                       u * ((1.0 - v) * p[ny].gradient[c] + v * p[ny + 1].gradient[c]);
 }
 
-/* One part, its area over k0; returns w_y w.grad phi. */
+/* One part, its area over k0, and its share of the momentum; cross: w_y w.grad phi, and phi_x
+ * times that. */
 static double radiate(const struct free_surface *surface, const struct base_point *points,
                       size_t cell, const double at[2], const double *phi, double speed, double area,
-                      double *part)
+                      double *part, double cross[2])
 {
     struct free_surface_place place;
     double d[2], p[2];
     const double *h = points[cell].second;
+    cross[0] = cross[1] = 0.0;
     if (!free_surface_locate(surface, at[0], at[1], &place))
         return 0.0;
     operator_gradient(surface, &place, phi, d);
@@ -196,14 +196,17 @@ static double radiate(const struct free_surface *surface, const struct base_poin
     part[3] = area * (turn[0] * d[0] + turn[1] * d[1] - speed * base_flow_known(&points[cell]));
     part[4] = area * (flow * w[0] - d[0]);
     part[5] = area * flow * w[1];
-    return flow * w[1];
+    cross[0] = flow * w[1];
+    cross[1] = d[0] * cross[0];
+    return area * flow * (h[0] * d[0] + h[1] * d[1]) + d[0] * part[3];
 }
 
-void base_flow_radiate(const struct free_surface *surface, const struct base_point *points,
-                       const double *phi, double speed, double k0, double (*part)[7])
+double base_flow_radiate(const struct free_surface *surface, const struct base_point *points,
+                         const double *phi, double speed, double k0, double (*part)[7])
 {
     enum { SIDE = BASE_FLOW_SIDE };
     size_t cells = surface->nx * surface->ny;
+    double momentum = 0.0;
     memset(part, 0, cells * SIDE * SIDE * sizeof *part);
     for (size_t c = 0; c < cells; c++) {
         size_t i = c / surface->ny, j = c % surface->ny;
@@ -214,12 +217,16 @@ void base_flow_radiate(const struct free_surface *surface, const struct base_poi
             for (int b = 0; b < SIDE; b++, part++) {
                 (*part)[0] = surface->x0 - surface->dx * xi;
                 (*part)[1] = inner + width * (b + 0.5) / SIDE;
-                double cross = radiate(surface, points, c, *part, phi, speed,
-                                       surface->dx * width / (SIDE * SIDE * k0), *part);
+                double cross[2], length = surface->dx / (SIDE * k0);
+                momentum += radiate(surface, points, c, *part, phi, speed, length * width / SIDE,
+                                    *part, cross);
                 /* The edge along a strip, which the base flow crosses. */
-                if (strip && b == 0)
-                    (*part)[3] -= surface->dx / (SIDE * k0) * cross;
+                if (strip && b == 0) {
+                    (*part)[3] -= length * cross[0];
+                    momentum -= length * cross[1];
+                }
             }
         }
     }
+    return momentum;
 }

@@ -9,11 +9,11 @@
 #include "exterior/operator.h"
 #include "exterior/transom.h"
 
-/* Creates points[nx ny]. face: of the transom, NULL without one; edge: phi of the hull beside the
- * cells, from its coefficients. */
+/* Creates points[nx ny] and fills on_hull, the coefficients of Phi on the hull. face: of the
+ * transom, NULL without one; edge: phi of the hull beside the cells, from its coefficients. */
 igabem_status base_flow_create(const struct influence *hull, const struct free_surface *surface,
                                const struct transom *transom, const struct influence *face,
-                               struct base_point **points);
+                               double *on_hull, struct base_point **points);
 
 /* What is known in the condition on the surface, over the speed: it holds second(phi) less this, in
  * place of phi_xx. */
@@ -27,9 +27,12 @@ void base_flow_at(const struct free_surface *surface, const struct base_point *p
  * those of sources_append(), with
  *     strength  (a.grad phi - U b) dS/k0,   a_i = w_k Phi_ki,
  *     dipole    (w (w.grad phi) - e_x phi_x) dS/k0
- * (docs/theory.md, section 14). phi: the unknowns and after them the hull's edge. */
+ * (docs/theory.md, section 14). phi: the unknowns and after them the hull's edge. Returns what the
+ * surface takes of the momentum along x, over rho, on this side,
+ *     (1/k0) Int D Phi_xi phi_i + phi_x (a.grad phi - U b) dS,   D = w.grad phi,
+ * and along a strip less phi_x D w_y. */
 enum { BASE_FLOW_SIDE = 3 };
-void base_flow_radiate(const struct free_surface *surface, const struct base_point *points,
-                       const double *phi, double speed, double k0, double (*part)[7]);
+double base_flow_radiate(const struct free_surface *surface, const struct base_point *points,
+                         const double *phi, double speed, double k0, double (*part)[7]);
 
 #endif

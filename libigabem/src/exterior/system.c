@@ -19,6 +19,7 @@ void exterior_system_free(struct exterior_system *system)
     free(system->slope);
     free(system->known);
     free(system->base);
+    free(system->base_on_hull);
     *system = (struct exterior_system){0};
 }
 
@@ -274,9 +275,13 @@ igabem_status exterior_system_create(const struct influence *hull,
     igabem_status status = assembly_create(hull, surface, transom, &assembly);
     if (status != IGABEM_OK)
         return status;
-    if (double_model)
-        status =
-            base_flow_create(hull, surface, transom, assembly.influence[PART_FACE], &system->base);
+    if (double_model) {
+        system->base_on_hull = malloc(system->hull * sizeof(double));
+        status = system->base_on_hull
+                     ? base_flow_create(hull, surface, transom, assembly.influence[PART_FACE],
+                                        system->base_on_hull, &system->base)
+                     : no_memory(n);
+    }
     if (status == IGABEM_OK)
         status = operator_create(surface, system->base, &assembly.operator_);
     if (status == IGABEM_OK)

@@ -15,6 +15,7 @@ struct exterior_system {
     size_t n, hull, cells; /* unknowns, those on the hull and on the free surface */
     double *fixed, *wave, *odd, *right, *slope, *known;
     struct base_point *base; /* of each cell; NULL: linearised about the free stream */
+    double *base_on_hull;    /* [hull] coefficients of that flow's Phi on the hull, likewise */
 };
 
 /* transom: NULL without one. double_model: linearised about the double-body flow. */

@@ -3,6 +3,7 @@
 #include "core/constants.h"
 #include "core/error.h"
 #include "result/kochin.h"
+#include "result/momentum.h"
 #include "result/radiation.h"
 #include "threads.h"
 
@@ -70,7 +71,6 @@ static igabem_status pressure_forces(const igabem_solution *solution, igabem_for
     if (status)
         return status;
     integrate_pressure(solution, sources, &sums);
-    sources_free(sources);
     double scale = 2.0 / (solution->speed * solution->speed * forces->wetted_area);
     if (solution->formulation->pressure || !solution->formulation->solves) {
         forces->cw_pressure_linear = scale * sums.drag_linear;
@@ -80,6 +80,14 @@ static igabem_status pressure_forces(const igabem_solution *solution, igabem_for
             forces->cw_transom = scale * sums.transom;
     }
     attitude(solution, &sums, forces);
+    if (solution->base_velocity)
+        status = momentum_double_model(solution, sources, scale, forces);
+    else if (momentum_kept(solution))
+        forces->cw_momentum = forces->cw_pressure - 2.0 * forces->cw_run_up +
+                              (isfinite(forces->cw_transom) ? forces->cw_transom : 0.0);
+    sources_free(sources);
+    if (status)
+        return status;
     if (!isfinite(sums.drag_linear) || !isfinite(sums.drag_square) || !isfinite(sums.lift))
         return igabem_fail(IGABEM_ERROR_NUMERIC, "the pressure on the hull is not finite");
     return IGABEM_OK;
@@ -115,6 +123,7 @@ igabem_status igabem_forces_compute(const igabem_solution *solution, igabem_forc
                               .cw_pressure_linear = NAN,
                               .cw_run_up = NAN,
                               .cw_transom = NAN,
+                              .cw_momentum = NAN,
                               .cw_error = NAN,
                               .cw_cutoff_lower = NAN,
                               .cw_cutoff_upper = NAN,

@@ -2,6 +2,7 @@
 #include "core/constants.h"
 #include "exterior/free_surface.h"
 #include "hull/hull.h"
+#include "result/momentum.h"
 #include "solve/solution.h"
 
 #include <math.h>
@@ -140,34 +141,21 @@ static bool strange_attitude(const struct subject *s, struct sentence *sentence)
                100.0 * sinkage, trim);
 }
 
-/* Whether its own momentum must give C_w (docs/theory.md, section 7): what is solved is the linear
- * problem at the surface and nothing else. */
-static bool conserves_momentum(const struct subject *s)
-{
-    const igabem_formulation_row *row = s->solution->formulation;
-    return s->solution->waves && s->info->surface_piercing &&
-           ((row->potential && !row->double_model) ||
-            (row->kelvin_rows && row->line_term && !row->stern_rows &&
-             s->solution->options.line_term));
-}
-
 static bool momentum_gap(const struct subject *s, struct sentence *sentence)
 {
-    if (!s->forces || !conserves_momentum(s))
+    if (!s->forces || !momentum_kept(s->solution))
         return false;
-    double transom = isfinite(s->forces->cw_transom) ? s->forces->cw_transom : 0.0;
-    double a = s->forces->cw, b = s->forces->cw_pressure - 2.0 * s->forces->cw_run_up + transom;
+    double a = s->forces->cw, b = s->forces->cw_momentum;
     return fabs(a - b) > most_momentum_gap * fmax(a, b) &&
            say(sentence,
-               "C_w by Kochin function (%.3g) and by the momentum of the same solution (%.3g, "
-               "pressure less twice the run-up) differ by more than a quarter of the larger: "
-               "believe neither without a refinement",
+               "C_w by Kochin function (%.3g) and by the momentum of the same solution (%.3g) "
+               "differ by more than a quarter of the larger: believe neither without a refinement",
                a, b);
 }
 
 static bool negative_pressure(const struct subject *s, struct sentence *sentence)
 {
-    return s->forces && s->solution->waves && !conserves_momentum(s) &&
+    return s->forces && s->solution->waves && !momentum_kept(s->solution) &&
            s->forces->cw_pressure < 0 &&
            say(sentence,
                "C_w by pressure is below zero (%.3g, by Kochin function %.3g): not resolved, "
@@ -180,7 +168,7 @@ static bool negative_pressure(const struct subject *s, struct sentence *sentence
 static bool pressure_gap(const struct subject *s, struct sentence *sentence)
 {
     if (!s->forces || !(s->forces->cw_pressure >= 0) || !isfinite(s->forces->cw) ||
-        conserves_momentum(s))
+        momentum_kept(s->solution))
         return false;
     double a = s->forces->cw, b = s->forces->cw_pressure, gap = fabs(b / a - 1.0);
     if (s->info->surface_piercing)

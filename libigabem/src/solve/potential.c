@@ -65,14 +65,15 @@ static igabem_status make_surface(const struct influence *influence,
                           s->transom / options->surface_columns, transom);
 }
 
-/* grad phi at the collocation points from phi's derivatives along the surface and U n_x across. */
-static igabem_status fill_velocity(const struct influence *influence, igabem_solution *solution)
+/* Creates the gradient on the hull of a potential of that speed, from its derivatives along the
+ * surface and U n_x across at the collocation points. */
+static igabem_status fill_velocity(const struct influence *influence, const struct density *density,
+                                   const double *phi, double speed, double **velocity)
 {
-    const struct density *density = solution->density;
     const struct mesh *mesh = influence->mesh;
     size_t n = density->n;
-    solution->velocity = malloc(3 * n * sizeof *solution->velocity);
-    if (!solution->velocity)
+    *velocity = malloc(3 * n * sizeof **velocity);
+    if (!*velocity)
         return solution_no_memory(n);
     for (size_t i = 0; i < n; i++) {
         size_t patch = density->owner[i], e = mesh->patch_base[patch];
@@ -81,7 +82,7 @@ static igabem_status fill_velocity(const struct influence *influence, igabem_sol
             e++;
         struct jet jet;
         element_jet(&mesh->element[e], local[0], local[1], &jet);
-        element_slope(&mesh->element[e], solution->sigma, local, slope);
+        element_slope(&mesh->element[e], phi, local, slope);
         memcpy(normal, density->normal + 3 * i, sizeof normal);
         memcpy(step[0], jet.ds, sizeof step[0]);
         memcpy(step[1], jet.dt, sizeof step[1]);
@@ -95,10 +96,10 @@ static igabem_status fill_velocity(const struct influence *influence, igabem_sol
         double along = (d * slope[0] - b * slope[1]) / det;
         double across = (a * slope[1] - b * slope[0]) / det;
         for (size_t c = 0; c < 3; c++)
-            solution->velocity[c * n + i] =
-                along * step[0][c] + across * step[1][c] + solution->speed * normal[0] * normal[c];
+            (*velocity)[c * n + i] =
+                along * step[0][c] + across * step[1][c] + speed * normal[0] * normal[c];
     }
-    return density_interpolate(density, 3, solution->velocity);
+    return density_interpolate(density, 3, *velocity);
 }
 
 /* Adds the hull's phi on an edge. */
@@ -146,7 +147,8 @@ static igabem_status keep_surface(const struct influence *influence, igabem_solu
 }
 
 /* The flow about which the surface was linearised, and what its cells radiate. */
-static igabem_status keep_base(const struct exterior_system *system, igabem_solution *solution)
+static igabem_status keep_base(const struct influence *influence,
+                               const struct exterior_system *system, igabem_solution *solution)
 {
     size_t parts = BASE_FLOW_SIDE * BASE_FLOW_SIDE * system->cells;
     solution->base = malloc(system->cells * sizeof *solution->base);
@@ -154,9 +156,11 @@ static igabem_status keep_base(const struct exterior_system *system, igabem_solu
     if (!solution->base || !solution->cell_source)
         return solution_no_memory(system->cells);
     memcpy(solution->base, system->base, system->cells * sizeof *solution->base);
-    base_flow_radiate(solution->surface, solution->base, solution->surface_phi, solution->speed,
-                      solution->k0, solution->cell_source);
-    return IGABEM_OK;
+    solution->surface_momentum =
+        base_flow_radiate(solution->surface, solution->base, solution->surface_phi, solution->speed,
+                          solution->k0, solution->cell_source);
+    return fill_velocity(influence, solution->density, system->base_on_hull, 1.0,
+                         &solution->base_velocity);
 }
 
 static igabem_status solve_one(const struct influence *influence,
@@ -183,9 +187,10 @@ static igabem_status solve_one(const struct influence *influence,
         status = keep_surface(influence, solution, right + system->hull);
     }
     if (status == IGABEM_OK && system->base)
-        status = keep_base(system, solution);
+        status = keep_base(influence, system, solution);
     if (status == IGABEM_OK)
-        status = fill_velocity(influence, solution);
+        status = fill_velocity(influence, solution->density, solution->sigma, solution->speed,
+                               &solution->velocity);
     free(right);
     return status;
 }

@@ -68,6 +68,7 @@ void igabem_solution_free(igabem_solution *solution)
     free_surface_free(solution->surface);
     free(solution->surface_phi);
     free(solution->base);
+    free(solution->base_velocity);
     free(solution->cell_source);
     transom_free(solution->transom);
     free(solution->strip_phi);

@@ -18,6 +18,8 @@ struct igabem_solution {
     double *surface_phi;          /* its coefficients there, then those of the hull's edge */
     struct base_point *base;      /* of each cell of a double model; else NULL */
     double (*cell_source)[7];     /* what it radiates then, of base_flow_radiate() */
+    double *base_velocity;        /* [3][n] grad Phi on the hull, of unit speed; else NULL */
+    double surface_momentum;      /* what that returned, m^4/s^2 */
     struct transom *transom;      /* strip and face of a dry one; NULL: none */
     double *strip_phi;            /* coefficients, the rim's phi and its slope */
     double *system;               /* [n][3][n] as assemble_turn() leaves it; NULL: not kept */
