@@ -73,6 +73,7 @@ static double worst_excess(const struct run *run, const descent_sample *s)
 
 /* What the differences of one derivative work with. */
 struct difference {
+    bayesopt_descent_slopes known;
     descent_sample at, moved;
     double *trial; /* [d] */
 };
@@ -88,7 +89,7 @@ static bayesopt_descent_answer move(const descent_model *model, size_t k, struct
         memcpy(work->trial, model->x, p->d * sizeof *work->trial);
         work->trial[k] += *step;
         if (work->trial[k] >= p->lower[k] && work->trial[k] <= p->upper[k])
-            answer = descent_coarse(p, work->trial, &work->moved);
+            answer = descent_coarse(p, work->trial, &work->known, &work->moved);
         if (answer != BAYESOPT_DESCENT_FAILED)
             return answer;
     }
@@ -111,16 +112,19 @@ static bayesopt_status status_of(bayesopt_descent_answer answer, const char *wha
 static bayesopt_status difference_all(descent_model *model, struct difference *work)
 {
     const descent_problem *p = model->problem;
-    bayesopt_status status = status_of(descent_coarse(p, model->x, &work->at),
-                                       "the coarse evaluation has no value where derivatives of "
-                                       "all %zu variables are taken",
-                                       p->d);
+    bayesopt_descent_answer answer = descent_slopes(p, model->x, &work->known);
+    if (answer == BAYESOPT_DESCENT_VALUED && slopes_complete(p, &work->known))
+        return BAYESOPT_OK;
+    if (answer == BAYESOPT_DESCENT_VALUED)
+        answer = descent_coarse(p, model->x, &work->known, &work->at);
+    bayesopt_status status = status_of(
+        answer, "there is no coarse value where derivatives by all %zu variables are taken", p->d);
     for (size_t k = 0; k < p->d && !status; k++) {
         double step;
         status = status_of(move(model, k, work, &step),
-                           "the coarse evaluation has no value on either side of variable %zu", k);
+                           "there is no coarse value on either side of variable %zu", k);
         if (!status)
-            descent_model_difference(model, k, step, &work->at, &work->moved);
+            descent_model_difference(model, &work->known, k, step, &work->at, &work->moved);
     }
     return status;
 }
@@ -131,10 +135,12 @@ bayesopt_status descent_differentiate(descent_model *model)
     struct difference work = {.trial = malloc(p->d * sizeof *work.trial)};
     bool ok = sample_create(p, &work.at) && work.trial;
     ok = sample_create(p, &work.moved) && ok;
+    ok = slopes_create(p, model, &work.known) && ok;
     bayesopt_status status =
         ok ? difference_all(model, &work) : bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
     sample_free(&work.at);
     sample_free(&work.moved);
+    free(work.known.known);
     free(work.trial);
     return status;
 }

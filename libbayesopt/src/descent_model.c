@@ -37,16 +37,16 @@ void descent_model_clear(descent_model *model)
     *model = (descent_model){0};
 }
 
-void descent_model_difference(descent_model *model, size_t k, double step, const descent_sample *at,
-                              const descent_sample *moved)
+void descent_model_difference(descent_model *model, const bayesopt_descent_slopes *known, size_t k,
+                              double step, const descent_sample *at, const descent_sample *moved)
 {
     const descent_problem *p = model->problem;
     size_t r = p->n_residuals;
     for (size_t m = 0; m < p->n_settings; m++)
-        for (size_t i = 0; i < r; i++)
+        for (size_t i = 0; i < r && !known->known[m]; i++)
             model->jacobian[(m * p->d + k) * r + i] =
                 (moved->residual[m * r + i] - at->residual[m * r + i]) / step;
-    for (size_t i = 0; i < p->n_state; i++)
+    for (size_t i = 0; i < p->n_state && !known->state_known; i++)
         model->slope[k * p->n_state + i] = (moved->state[i] - at->state[i]) / step;
 }
 

@@ -22,15 +22,6 @@ static inline bool setting_is_objective(const bayesopt_descent_setting *setting)
     return setting->share == 1 && setting->offset == 0;
 }
 
-/* descent_problem.c */
-bayesopt_status descent_check(const descent_problem *problem, const double *start);
-bool sample_create(const descent_problem *problem, descent_sample *sample);
-void sample_free(descent_sample *sample);
-/* An evaluation whose numbers are all finite. */
-bayesopt_descent_answer descent_fine(const descent_problem *p, const double *x, descent_sample *s);
-bayesopt_descent_answer descent_coarse(const descent_problem *p, const double *x,
-                                       descent_sample *s);
-
 struct bayesopt_descent_model {
     const descent_problem *problem;
     double *x;            /* [d] the point at d = 0 */
@@ -46,12 +37,27 @@ struct bayesopt_descent_model {
 };
 typedef struct bayesopt_descent_model descent_model;
 
+/* descent_problem.c */
+bayesopt_status descent_check(const descent_problem *problem, const double *start);
+bool sample_create(const descent_problem *problem, descent_sample *sample);
+void sample_free(descent_sample *sample);
+/* Slopes whose arrays are the model's, but for `known`, which is to be freed; none known. */
+bool slopes_create(const descent_problem *problem, const descent_model *model,
+                   bayesopt_descent_slopes *slopes);
+bool slopes_complete(const descent_problem *problem, const bayesopt_descent_slopes *slopes);
+/* Evaluations whose numbers are all finite, and what is known of derivatives that are. */
+bayesopt_descent_answer descent_fine(const descent_problem *p, const double *x, descent_sample *s);
+bayesopt_descent_answer descent_coarse(const descent_problem *p, const double *x,
+                                       const bayesopt_descent_slopes *known, descent_sample *s);
+bayesopt_descent_answer descent_slopes(const descent_problem *p, const double *x,
+                                       bayesopt_descent_slopes *s);
+
 bool descent_model_init(const descent_problem *problem, descent_model *model);
 void descent_model_clear(descent_model *model);
 
-/* Derivatives with respect to x[k] from two coarse samples, `step` apart. */
-void descent_model_difference(descent_model *model, size_t k, double step, const descent_sample *at,
-                              const descent_sample *moved);
+/* Derivatives with respect to x[k] that are not known from two coarse samples, `step` apart. */
+void descent_model_difference(descent_model *model, const bayesopt_descent_slopes *known, size_t k,
+                              double step, const descent_sample *at, const descent_sample *moved);
 
 /* Broyden's update: the least change by which the model, at model->base, tells what the step d led
  * to. Variables count in half widths of the box. */

@@ -59,7 +59,8 @@ bayesopt_status descent_check(const descent_problem *p, const double *start)
     NEED(p->upper);
     NEED(p->setting);
     NEED(p->fine);
-    NEED(p->coarse);
+    if (!p->coarse && !p->derivatives)
+        return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "coarse and derivatives are both NULL");
     NEED_MOST(p->n_limits, BAYESOPT_MOST_CONSTRAINTS);
     if (p->n_settings < 1 || p->n_settings > BAYESOPT_MOST_CONSTRAINTS)
         return bayesopt_fail(BAYESOPT_ERROR_ARGUMENT, "%zu settings, expected 1 to %d",
@@ -97,6 +98,22 @@ void sample_free(descent_sample *s)
     free(s->state);
 }
 
+bool slopes_create(const descent_problem *p, const descent_model *model,
+                   bayesopt_descent_slopes *slopes)
+{
+    *slopes = (bayesopt_descent_slopes){.residual = model->jacobian, .state = model->slope};
+    slopes->known = calloc(p->n_settings, sizeof *slopes->known);
+    return slopes->known != NULL;
+}
+
+bool slopes_complete(const descent_problem *p, const bayesopt_descent_slopes *slopes)
+{
+    bool all = slopes->state_known || !p->n_state;
+    for (size_t m = 0; m < p->n_settings; m++)
+        all = all && slopes->known[m];
+    return all;
+}
+
 static bool all_finite(size_t n, const double *value)
 {
     for (size_t i = 0; i < n; i++)
@@ -105,13 +122,33 @@ static bool all_finite(size_t n, const double *value)
     return true;
 }
 
-bayesopt_descent_answer descent_coarse(const descent_problem *p, const double *x, descent_sample *s)
+bayesopt_descent_answer descent_slopes(const descent_problem *p, const double *x,
+                                       bayesopt_descent_slopes *s)
 {
+    size_t each = p->d * p->n_residuals;
+    if (!p->derivatives)
+        return BAYESOPT_DESCENT_VALUED;
+    bayesopt_descent_answer answer = p->derivatives(p->user_data, x, s);
+    bool filled = answer == BAYESOPT_DESCENT_VALUED;
+    for (size_t m = 0; m < p->n_settings; m++)
+        s->known[m] = filled && s->known[m] && all_finite(each, s->residual + m * each);
+    s->state_known = filled && s->state_known && all_finite(p->d * p->n_state, s->state);
+    return answer == BAYESOPT_DESCENT_STOP ? answer : BAYESOPT_DESCENT_VALUED;
+}
+
+bayesopt_descent_answer descent_coarse(const descent_problem *p, const double *x,
+                                       const bayesopt_descent_slopes *known, descent_sample *s)
+{
+    if (!p->coarse)
+        return BAYESOPT_DESCENT_FAILED;
+    s->known = known;
     bayesopt_descent_answer answer = p->coarse(p->user_data, x, s);
     if (answer != BAYESOPT_DESCENT_VALUED)
         return answer;
-    bool finite =
-        all_finite(p->n_settings * p->n_residuals, s->residual) && all_finite(p->n_state, s->state);
+    bool finite = known->state_known || all_finite(p->n_state, s->state);
+    for (size_t m = 0; m < p->n_settings; m++)
+        finite = finite &&
+                 (known->known[m] || all_finite(p->n_residuals, s->residual + m * p->n_residuals));
     return finite ? answer : BAYESOPT_DESCENT_FAILED;
 }
 

@@ -14,7 +14,8 @@ enum { N = 3, R = 5, SETTINGS = 2 };
 struct body {
     double target[SETTINGS][N], rest, curvature;
     double fence; /* of x[0] + x[1] */
-    int fine, coarse, most;
+    int fine, coarse, derivatives, most;
+    int known;   /* settings whose derivatives slopes() has */
     bool broken; /* no value with x[2] > 0.3 */
     bool exact;  /* the coarse values are the fine ones */
     double lost; /* x[2] from which on numbers are none; 0: nowhere */
@@ -308,6 +309,59 @@ static void minimises_the_model_at_the_start(void)
     bayesopt_descent_model_free(model);
 }
 
+/* The derivatives of the first setting, and those of the others that body->known has. */
+static bayesopt_descent_answer slopes(void *user_data, const double *x, bayesopt_descent_slopes *s)
+{
+    struct body *body = user_data;
+    body->derivatives++;
+    for (int m = 0; m < body->known; m++) {
+        s->known[m] = true;
+        for (int k = 0; k < N; k++)
+            for (int i = 0; i < R; i++)
+                s->residual[(m * N + k) * R + i] =
+                    (i < N) * ((i == k) + 2 * body->curvature * x[k]);
+    }
+    s->state_known = body->known == SETTINGS;
+    for (int k = 0; k < N && s->state_known; k++)
+        s->state[k] = k == 0;
+    if (body->lost != 0)
+        s->residual[0] = NAN;
+    return body->known ? BAYESOPT_DESCENT_VALUED : BAYESOPT_DESCENT_FAILED;
+}
+
+/* Derivatives that are given: all, so that nothing is differenced; of one setting, while the other
+ * and the state are; none after all; or numbers that are none, which are differenced too. */
+static void takes_derivatives(void)
+{
+    for (int known = SETTINGS; known >= -1; known--) {
+        struct body body = {.target = {{0.9, 0, 0}, {0, 0.6, 0}}, .rest = 0.1, .curvature = 0.2};
+        bayesopt_descent_problem p =
+            problem(&body, (const bayesopt_descent_setting[]){{0, 1}, {1, 0}});
+        double x[N] = {0}, ratio;
+        body.known = known < 0 ? SETTINGS : known;
+        body.lost = known < 0 ? 10 : 0;
+        p.derivatives = slopes;
+        p.bound = 3; /* not reached */
+        if (known == SETTINGS)
+            p.coarse = NULL;
+        CU_ASSERT_EQUAL_FATAL(bayesopt_descend(&p, x, &ratio), BAYESOPT_OK);
+        CHECK_CLOSE(ratio, 0.2951, 0.005);
+        CU_ASSERT(body.derivatives >= 1);
+        CU_ASSERT_EQUAL(body.coarse, known == SETTINGS ? 0 : body.derivatives * (N + 1));
+    }
+}
+
+/* Without coarse evaluations what is not known is not to be had. */
+static void needs_all_derivatives(void)
+{
+    struct body body = {.target = {{0.9, 0, 0}, {0, 0.6, 0}}, .rest = 0.1, .known = 1};
+    bayesopt_descent_problem p = problem(&body, ALONE);
+    double x[N] = {0};
+    p.derivatives = slopes;
+    p.coarse = NULL;
+    CU_ASSERT_EQUAL(bayesopt_descend(&p, x, NULL), BAYESOPT_ERROR_NUMERIC);
+}
+
 /* Refused, with a sentence that says what. */
 #define REFUSED(call)                                                                              \
     do {                                                                                           \
@@ -355,7 +409,7 @@ static void refuses_what_is_no_problem(void)
     REFUSED_WITH(n_limits = 1);
     REFUSED_WITH(n_limits = (size_t)-1);
     REFUSED_WITH(fine = NULL);
-    REFUSED_WITH(coarse = NULL);
+    REFUSED_WITH(coarse = NULL); /* and no derivatives */
     bayesopt_descent_problem bad = good;
     bad.bound = 1;
     bad.function = NULL;
@@ -420,6 +474,8 @@ static const struct check_case cases[] = {
     {"starts where it is told", starts_where_it_is_told},
     {"tells that nothing is allowed", tells_that_nothing_is_allowed},
     {"minimises the model at the start", minimises_the_model_at_the_start},
+    {"takes derivatives", takes_derivatives},
+    {"needs all derivatives", needs_all_derivatives},
     {"refuses what is no problem", refuses_what_is_no_problem},
     {"refuses what is no model", refuses_what_is_no_model},
     {"takes no number that is none", takes_no_number_that_is_none},

@@ -5,8 +5,9 @@
  * waves, misfits, field values. Other such sums may be bounded, functions known beforehand too, and
  * one more quantity that is a smooth function b of a vector s, the state, nearly linear in x.
  *
- * The caller has a fine evaluation, whose values count, and a coarse one, whose differences give
- * derivatives. Each step solves, about the fine values of the best point so far,
+ * The caller has a fine evaluation, whose values count, and derivatives of it, or a coarse one
+ * whose differences stand for them. Each step solves, about the fine values of the best point so
+ * far,
  *
  *     min tau + penalty e   s.t.  |r_m + J_m d|^2 / C_m <= tau                       (objective),
  *                                 |r_m + J_m d|^2 / C_m <= offset_m + share_m tau + e   (others),
@@ -25,6 +26,7 @@
 #include <bayesopt/design.h>
 #include <bayesopt/status.h>
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #ifdef __cplusplus
@@ -39,12 +41,15 @@ typedef struct bayesopt_descent_setting {
 
 /** What an evaluation says of a point. The arrays are the library's, to be filled. */
 typedef struct bayesopt_descent_sample {
-    double *residual;   /**< [n_settings x n_residuals] */
-    double *value;      /**< [n_settings] of a fine evaluation: the sums of squares, perhaps by a
-                             better rule than that of the residuals */
-    double *state;      /**< [n_state] */
-    double bounded;     /**< of a fine evaluation: b, likewise */
-    double reserved[4]; /**< 0: room for members of later releases */
+    double *residual; /**< [n_settings x n_residuals] */
+    double *value;    /**< [n_settings] of a fine evaluation: the sums of squares, perhaps by a
+                           better rule than that of the residuals */
+    double *state;    /**< [n_state] */
+    double bounded;   /**< of a fine evaluation: b, likewise */
+    const struct bayesopt_descent_slopes *known; /**< of a coarse evaluation: whose derivatives are
+                                                      known, and need no residuals or state; NULL:
+                                                      none are. Borrowed */
+    double reserved[4];                          /**< 0: room for members of later releases */
 } bayesopt_descent_sample;
 
 /** What became of an evaluation. */
@@ -58,6 +63,20 @@ typedef enum bayesopt_descent_answer {
 /** Fills a sample at x [d]. */
 typedef bayesopt_descent_answer (*bayesopt_descent_evaluate)(void *user_data, const double *x,
                                                              bayesopt_descent_sample *sample);
+
+/** Derivatives that need no differences. The arrays are the library's, to be filled. */
+typedef struct bayesopt_descent_slopes {
+    double *residual;   /**< [n_settings x d x n_residuals] of setting m, by variable k */
+    double *state;      /**< [d x n_state] */
+    bool *known;        /**< [n_settings] false before: true where a setting's are filled */
+    bool state_known;   /**< likewise */
+    double reserved[4]; /**< 0: room for members of later releases */
+} bayesopt_descent_slopes;
+
+/** Fills what is known of the derivatives of a fine evaluation at x [d], where there was one
+ * before; the rest is left to differences. BAYESOPT_DESCENT_FAILED leaves all of it. */
+typedef bayesopt_descent_answer (*bayesopt_descent_differentiate)(void *user_data, const double *x,
+                                                                  bayesopt_descent_slopes *slopes);
 
 /** b of a state [n_state]. gradient: [n_state] filled with db/ds; NULL: not wanted. */
 typedef double (*bayesopt_descent_function)(void *user_data, const double *state, double *gradient);
@@ -77,7 +96,9 @@ typedef struct bayesopt_descent_problem {
     size_t n_limits;                  /**< values of limit; default 0 */
     bayesopt_input_constraint limit;  /**< known without evaluating, <= 0 allowed; default NULL */
     bayesopt_descent_evaluate fine;   /**< values that count: some for each derivative */
-    bayesopt_descent_evaluate coarse; /**< for differences: d + 1 for each derivative */
+    bayesopt_descent_evaluate coarse; /**< for differences: d + 1 for each derivative; NULL with
+                                           derivatives that are all known */
+    bayesopt_descent_differentiate derivatives;          /**< default NULL: all by differences */
     void (*tell)(void *user_data, const char *sentence); /**< hears of each step; default NULL */
     void *user_data;                                     /**< passed to all of these */
     double reserved[8]; /**< 0: room for members of later releases */
