@@ -180,6 +180,68 @@ static double second_difference(const nurbs_hull *parent, const nurbs_grid *grid
     return worst;
 }
 
+/* Moves of the control points of the light surface of `hull` on the way to `moved`, as a surface.
+ */
+static nurbs_surface *moves_of(const nurbs_hull *hull, const nurbs_hull *moved)
+{
+    const nurbs_surface *light = nurbs_patches_get(nurbs_hull_light(hull), 0);
+    const int degree[2] = {nurbs_surface_degree(light, 0), nurbs_surface_degree(light, 1)};
+    const size_t size[2] = {nurbs_surface_size(light, 0), nurbs_surface_size(light, 1)};
+    double *move = malloc(3 * size[0] * size[1] * sizeof *move);
+    nurbs_surface *field = NULL;
+    CU_ASSERT_PTR_NOT_NULL_FATAL(move);
+    CU_ASSERT_EQUAL_FATAL(nurbs_hull_moves(hull, moved, move), NURBS_OK);
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_create(degree, size, nurbs_surface_knots(light, 0),
+                                               nurbs_surface_knots(light, 1), move, NULL, &field),
+                          NURBS_OK);
+    free(move);
+    return field;
+}
+
+/* The move of a hull by a bulge more: what control points make of it is the difference of the cut
+ * surfaces at equal parameters, and where these are smooth y0 sin(4 pi x/L) cos(pi z/T). */
+static void check_moves(const nurbs_hull *parent, const nurbs_grid *grid, double amount,
+                        double kink, bool shared)
+{
+    const double h = 0.01;
+    nurbs_hull *hull[2] = {NULL, NULL};
+    nurbs_grid *moved = NULL;
+    CU_ASSERT_EQUAL_FATAL(
+        nurbs_hull_design_grid(parent, nurbs_grid_rows(grid), nurbs_grid_columns(grid), &moved),
+        NURBS_OK);
+    for (int i = 0; i < 2; i++) {
+        bulge(grid, amount + i * h, moved);
+        nurbs_grid_edit(moved)[3 * (12 * 15 + 6) + 1] *= kink;
+        CU_ASSERT_EQUAL_FATAL(nurbs_hull_rebuild(parent, moved, &hull[i]), NURBS_OK);
+    }
+    CU_ASSERT_EQUAL(nurbs_hull_shares_space(hull[0]), shared);
+    nurbs_surface *field = moves_of(hull[0], hull[1]);
+    double worst = 0, far = 0, astray = 0;
+    for (int i = 0; i <= 40; i++)
+        for (int j = 0; j <= 10; j++) {
+            double at[2][3], move[3];
+            const double uv[2] = {i / 40.0, j / 10.0};
+            for (int k = 0; k < 2; k++) {
+                const nurbs_surface *wetted = nurbs_patches_get(nurbs_hull_wetted(hull[k]), 0);
+                CU_ASSERT_EQUAL_FATAL(nurbs_surface_eval(wetted, 0, 1, uv, at[k]), NURBS_OK);
+            }
+            CU_ASSERT_EQUAL_FATAL(nurbs_surface_eval(field, 0, 1, uv, move), NURBS_OK);
+            double f = sin(4 * pi * at[0][0] / L) * cos(pi * at[0][2] / T);
+            double expected = at[0][1] / (1 + amount * f) * f;
+            worst = fmax(worst, fabs(move[1] - (at[1][1] - at[0][1])) / h);
+            if (kink == 1)
+                far = fmax(far, fabs(move[1] / h - expected));
+            astray = fmax(astray, fmax(fabs(move[0]), fabs(move[2])));
+        }
+    CHECK_CLOSE(worst, 0, 1e-2 * B); /* of 0.5 B at most */
+    CHECK_CLOSE(far, 0, 1e-2 * B);   /* the grid is not the bulge */
+    CHECK_CLOSE(astray, 0, 1e-12 * L);
+    nurbs_surface_free(field);
+    nurbs_hull_free(hull[0]);
+    nurbs_hull_free(hull[1]);
+    nurbs_grid_free(moved);
+}
+
 static void rebuilds_smoothly_in_a_shared_space(void)
 {
     nurbs_patches *patches = raised_wigley(0.1);
@@ -204,6 +266,7 @@ static void rebuilds_smoothly_in_a_shared_space(void)
            narrow = second_difference(parent, grid, 1e-4);
     CU_ASSERT(wide < 1);
     CU_ASSERT(narrow < 1);
+    check_moves(parent, grid, 0.03, 1, true);
     /* Twenty times the bulge is not in the space: the design takes its own knots and says so. */
     bulge(grid, 0.9, extreme[0]);
     nurbs_grid_edit(extreme[0])[3 * (12 * 15 + 6) + 1] *= 1.2;
@@ -213,6 +276,7 @@ static void rebuilds_smoothly_in_a_shared_space(void)
     CU_ASSERT_PTR_NOT_NULL_FATAL(nurbs_hull_step(hull, 0));
     CU_ASSERT_PTR_NOT_NULL(strstr(nurbs_hull_step(hull, 0), "knots of its own"));
     nurbs_hull_free(hull);
+    check_moves(parent, grid, 0.9, 1.2, false);
     nurbs_grid_free(extreme[0]);
     nurbs_grid_free(extreme[1]);
     CU_ASSERT_EQUAL_FATAL(nurbs_hull_design_grid(parent, 21, 12, &extreme[0]), NURBS_OK);

@@ -45,6 +45,7 @@ static void calls_that_can_fail(void)
     CHECK_NULL(nurbs_patches_design_grid(NULL, 2, 2, 2, NULL));
     CHECK_NULL(nurbs_hull_rebuild(NULL, NULL, NULL));
     CHECK_NULL(nurbs_hull_share_space(NULL, NULL, 2, NULL));
+    CHECK_NULL(nurbs_hull_moves(NULL, NULL, NULL));
     CHECK_NULL(nurbs_hull_read_patches(NULL, 1.0, NULL, NULL, 2));
     CHECK_NULL(nurbs_patches_snap(NULL, 1.0, NULL, NULL, NULL));
     CHECK_NULL(nurbs_hull_write(NULL, NULL, NULL));

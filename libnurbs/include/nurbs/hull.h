@@ -110,6 +110,17 @@ NURBS_API nurbs_status nurbs_hull_share_space(nurbs_hull *parent, const nurbs_gr
 /** Whether a rebuilt hull lies in the shared space. */
 NURBS_API bool nurbs_hull_shares_space(const nurbs_hull *hull);
 
+/** Moves of the control points of the light surfaces of a rebuilt hull on the way to another one of
+ * the same parent: fills move[points][3], m, patch by patch, u slow and v fast; divided by the step
+ * of a parameter between the two, what igabem_tangent_create() takes. In a shared space it is the
+ * difference of their control points, else that of the wetted surfaces at equal parameters, fitted
+ * on the knots of `hull`.
+ * Surfaces that are cut at the water hold this to the tolerance of the cut, whose knots may be
+ * others on the two hulls. Errors: NURBS_ERROR_ARGUMENT: different numbers of patches;
+ * NURBS_ERROR_GEOMETRY: rational ones. */
+NURBS_API nurbs_status nurbs_hull_moves(const nurbs_hull *hull, const nurbs_hull *moved,
+                                        double *move);
+
 /** Reads the patches of a hull's file, faces that loops cut out of B-spline surfaces resampled; one
  * surface of a file that holds none, as nurbs_hull_read().
  * @param tolerance  of that, m; NAN: 1e-5 of the extent in x
