@@ -17,12 +17,13 @@ struct plan {
     struct problem problem;
     galv_shape *shape;
     struct evaluation parent;
-    double coarse; /* s of a solve for derivatives; 0: the method takes none */
+    double coarse;   /* s of a solve for differences; 0: the method takes none */
+    double tangents; /* solves that derivatives by tangents are worth; 0: likewise */
     json_t *warnings;
 };
 
 /* Keeps why the value of the original may be wrong. */
-static bool keep_warnings(void *user_data, igabem_solution *const *solutions)
+static bool keep_warnings(void *user_data, igabem_solution **solutions)
 {
     struct plan *p = user_data;
     const char *warning;
@@ -44,7 +45,7 @@ static bool read_plan(const struct options *options, struct plan *p)
     evaluate_parent(&p->problem, &p->parent, keep_warnings, p);
     bool descent = method_row(p->config.method)->kind == METHOD_DESCENT;
     if (descent && !p->parent.failed)
-        p->coarse = descent_coarse_seconds(&p->problem) + p->parent.geometry_seconds;
+        descent_cost(&p->problem, &p->coarse, &p->tangents);
     if (isnan(p->coarse))
         return cli_refuse("%s: the original cannot be solved on the mesh of the derivatives",
                           p->config.hull);
@@ -52,19 +53,25 @@ static bool read_plan(const struct options *options, struct plan *p)
                                            p->config.hull, p->parent.reason);
 }
 
-/* For derivatives: with one variable for each parameter, which are the most, at every second
- * design. */
+/* For derivatives at every second design: with one variable for each parameter, which are the most.
+ */
+static double derivatives(const struct plan *p)
+{
+    return ceil((double)p->config.iterations / 2);
+}
+
 static double coarse_solves(const struct plan *p)
 {
-    return p->coarse > 0 ? ceil((double)p->config.iterations / 2) *
-                               (1 + (double)galv_shape_parameters(p->shape))
-                         : 0;
+    return p->coarse > 0 ? derivatives(p) * (1 + (double)galv_shape_parameters(p->shape)) : 0;
 }
 
 static double seconds(const struct plan *p)
 {
-    return coarse_solves(p) * p->coarse + (p->parent.geometry_seconds + p->parent.solve_seconds) *
-                                              (double)search_budget(&p->config);
+    double tangents = p->tangents > 0 ? derivatives(p) * p->tangents : 0;
+    return coarse_solves(p) * (p->coarse + p->parent.geometry_seconds) +
+           tangents * p->parent.solve_seconds +
+           (p->parent.geometry_seconds + p->parent.solve_seconds) *
+               (double)search_budget(&p->config);
 }
 
 static bool print_json(const struct plan *p)
@@ -141,9 +148,13 @@ static void print_solver(const struct plan *p)
 static void print_search(const struct plan *p)
 {
     const struct config *c = &p->config;
+    if (p->tangents > 0)
+        printf("%-16sby tangents%s, about %.2g solves each time\n", "derivatives",
+               p->coarse > 0 ? " where a formulation has them" : "", p->tangents);
     if (p->coarse > 0)
         printf("%-16s%.2f s a coarse solve, at most %zu each time, about %.0f in all\n",
-               "derivatives", p->coarse, 1 + galv_shape_parameters(p->shape), coarse_solves(p));
+               p->tangents > 0 ? "" : "derivatives", p->coarse, 1 + galv_shape_parameters(p->shape),
+               coarse_solves(p));
     printf("%-16s%s, at most %zu designs: about %.0f min on %d threads\n", "search",
            method_row(c->method)->name, search_budget(c), ceil(seconds(p) / 60), cli_threads());
     printf("%-16sresolution x %d, %zu other speeds\n", "verification", c->verify_refine,

@@ -28,15 +28,20 @@ static json_t *result(const struct forecast *f)
         put(without, constraints_name(k), f->without[k]);
     json_result_set(o, "confirm", shares);
     json_result_set(o, "without", without);
+    json_result_set(o, "tangents", json_integer((json_int_t)f->tangents));
     json_result_set(o, "solves", json_integer((json_int_t)f->solves));
     return o;
 }
 
 static bool print_text(const struct forecast *f)
 {
-    printf("forecast from one Jacobian of %zu coarse solves: reductions of the objective\n"
-           "%-28s%6.1f %%\n",
-           f->solves, "as configured", 100 * (1 - f->asked));
+    printf("forecast from one Jacobian, ");
+    if (f->tangents)
+        printf("%zu of %zu settings by tangents%s", f->tangents, f->settings,
+               f->solves ? ", the others by " : "");
+    if (f->solves)
+        printf("%zu coarse solves", f->solves);
+    printf(": reductions of the objective\n%-28s%6.1f %%\n", "as configured", 100 * (1 - f->asked));
     for (size_t i = 0; i < FORECAST_SHARES; i++)
         if (!isnan(f->confirmed[i]))
             printf("confirm: %-19g%6.1f %%%s\n", FORECAST_SHARE[i], 100 * (1 - f->confirmed[i]),

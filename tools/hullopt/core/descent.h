@@ -1,5 +1,4 @@
-/* The Gauss-Newton search of a run: designs by their wave residuals and velocities, on a coarse
- * mesh for the derivatives. */
+/* The Gauss-Newton search of a run: designs by their wave residuals and velocities. */
 #ifndef HULLOPT_DESCENT_H
 #define HULLOPT_DESCENT_H
 
@@ -10,11 +9,9 @@
  * not told again. */
 bool descent_run(struct search *search, double *u);
 
-/* Fills u[n x modes] with designs to begin a search of another kind with: where the model of one
- * step, at the original, promises most about points all over the box, within all limits by it. */
-bool descent_design(struct problem *problem, size_t n, double *u);
-
-/* Seconds of one solve on the mesh of the derivatives, here of the original; NAN: there is none. */
-double descent_coarse_seconds(const struct problem *problem);
+/* What derivatives cost: seconds of one solve on the mesh of the differences, here of the original,
+ * of the settings that are differenced (0: none is; NAN: there is no value), and solves on the mesh
+ * of the values that those by tangents are worth (0: there are none). */
+void descent_cost(const struct problem *problem, double *coarse_seconds, double *solves);
 
 #endif

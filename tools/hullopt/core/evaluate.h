@@ -53,9 +53,9 @@ bool evaluate_asks_speeds(const struct config *config);
  * cw_model, and cw_speed when that is so. Returns how many. */
 size_t evaluate_settings(const struct problem *problem, igabem_options settings[SETTINGS_MOST]);
 
-/* Looks at the solutions, one for each of these settings, before they are freed; false, with a
- * sentence, fails the design. */
-typedef bool (*evaluate_look)(void *user_data, igabem_solution *const *solutions);
+/* Looks at the solutions, one for each of these settings, before they are freed; it may take some,
+ * leaving NULL in their places. false, with a sentence, fails the design. */
+typedef bool (*evaluate_look)(void *user_data, igabem_solution **solutions);
 
 /* Fills everything of an evaluation that was started. A design that cannot be evaluated is a
  * result, not an error. look: NULL, nobody does. */

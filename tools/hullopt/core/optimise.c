@@ -1,7 +1,7 @@
 #include "core/optimise.h"
 
 #include "core/constraints.h"
-#include "core/descent.h"
+#include "core/forecast.h"
 #include "core/front.h"
 #include "core/search.h"
 #include "core/snapshots.h"
@@ -33,7 +33,7 @@ static bool make_initial(struct problem *problem, const struct core_watch *watch
     problem->initial =
         malloc(config->initial * galv_model_modes(problem->model) * sizeof *problem->initial);
     return (problem->initial || core_no_memory()) &&
-           descent_design(problem, config->initial, problem->initial);
+           forecast_design(problem, config->initial, problem->initial);
 }
 
 /* The record is made under another name and renamed once complete. */

@@ -110,18 +110,30 @@ bool problem_make_points(struct problem *problem, const double *u, double *point
     return problem->found || problem_read_points(problem, path, points);
 }
 
-bool problem_build(struct problem *problem, const double *u, struct design *design)
+/* The grid of a latent point, in problem->moved. */
+static bool displace(struct problem *problem, const double *u)
 {
     double *points = nurbs_grid_edit(problem->moved);
-    *design = (struct design){0};
     problem->made[0] = '\0';
-    if (!u)
-        return build(problem, nurbs_grid_points(problem->grid), design);
-    if (config_by_command(problem->config) ? !problem_make_points(problem, u, points)
-                                           : galv_displace(problem->model, u, points) != GALV_OK)
-        return config_by_command(problem->config) ? false
-                                                  : core_fail("grid: %s", galv_last_error());
-    return build(problem, points, design);
+    if (config_by_command(problem->config))
+        return problem_make_points(problem, u, points);
+    return galv_displace(problem->model, u, points) == GALV_OK ||
+           core_fail("grid: %s", galv_last_error());
+}
+
+bool problem_build(struct problem *problem, const double *u, struct design *design)
+{
+    *design = (struct design){0};
+    if (u)
+        return displace(problem, u) && build(problem, nurbs_grid_points(problem->moved), design);
+    problem->made[0] = '\0';
+    return build(problem, nurbs_grid_points(problem->grid), design);
+}
+
+bool problem_build_hull(struct problem *problem, const double *u, nurbs_hull **hull)
+{
+    *hull = NULL;
+    return displace(problem, u) && build_hull(problem, nurbs_grid_points(problem->moved), hull);
 }
 
 bool problem_set_best(struct problem *problem, const double *u)

@@ -65,7 +65,9 @@ bool problem_recall(struct problem *problem, galv_model *model, const double *gr
 /* The design of a latent point (NULL: the parent). The sentence begins with the stage that failed,
  * "skin: ". */
 bool problem_build(struct problem *problem, const double *u, struct design *design);
-/* The same of the points of a grid. */
+/* Its hull alone, as libnurbs makes it. */
+bool problem_build_hull(struct problem *problem, const double *u, nurbs_hull **hull);
+/* The design of the points of a grid. */
 bool problem_build_points(struct problem *problem, const double *points, struct design *design);
 bool problem_set_best(struct problem *problem, const double *u);
 
