@@ -335,23 +335,42 @@ static void step_free(struct step *s)
     free(s->x);
 }
 
-double descent_model_step(const descent_model *model, double radius, double *d, double *broken)
+/* The tries about a radius. Lowers *least below what d had. */
+static void descend_within(struct step *s, double radius, double *least, double *d)
 {
-    enum { EVALUATIONS = 400, TRIES = 2 };
+    enum { TRIES = 2 };
     /* tau starts clear of its rows: on them SLSQP may take its first step for its last. It also
      * stops early, and goes on when it is started again. */
     static const double clear[TRIES] = {1.5, 1.05};
+    set_box(s, radius);
+    for (int k = 0; k < TRIES; k++)
+        descend(s, clear[k], least, d);
+}
+
+/* The penalised objective of no step. */
+static double of_no_step(const struct step *s)
+{
+    const descent_model *model = s->model;
+    memset(s->x, 0, model->problem->d * sizeof *s->x);
+    double tau = worst(model, s->x);
+    return tau + model->penalty * excess(model, s->x, tau);
+}
+
+double descent_model_step(const descent_model *model, double radius, double *d, double *broken)
+{
+    enum { EVALUATIONS = 400, SHORTER = 3 };
+    const double some = 1e-4; /* of the ratio: less is a step that SLSQP did not find */
     size_t n = model->problem->d;
     double promised = NAN, least = HUGE_VAL;
     struct step s;
     memset(d, 0, n * sizeof *d);
     if (step_create(model, &s) && add_rows(&s)) {
-        set_box(&s, radius);
         nlopt_set_min_objective(s.search, objective, (void *)model);
         nlopt_set_xtol_rel(s.search, 1e-7);
         nlopt_set_maxeval(s.search, EVALUATIONS);
-        for (int k = 0; k < TRIES; k++)
-            descend(&s, clear[k], &least, d);
+        double nothing = of_no_step(&s);
+        for (int k = 0; k <= SHORTER && !(least < nothing - some); k++) /* within the radius too */
+            descend_within(&s, ldexp(radius, -k), &least, d);
         if (least < HUGE_VAL) {
             memcpy(s.x, d, n * sizeof *d);
             promised = worst(model, s.x);
