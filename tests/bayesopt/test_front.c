@@ -1,7 +1,7 @@
 /* Several objectives: volumes against inclusion and exclusion, the expected improvement against
  * quadrature of the improvement itself, and searches whose Pareto sets are known. */
 #include "check.h"
-#include "front.h"
+#include "core/front.h"
 
 #include <bayesopt/bayesopt.h>
 
