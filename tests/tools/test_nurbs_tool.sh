@@ -242,6 +242,8 @@ close volume 0.0039997615 1e-3
 expect 1 "$nurbs" skin "$source/tests/data/iges_curves.igs" -o sections.json
 says "0 sections among them"
 expect 0 "$nurbs" hydrostatics "$hulls/series60.offsets.csv" --json
+expect 2 "$nurbs" sections surface.json -o again.json --rows 30
+says "expected an output in .csv"
 expect 2 "$nurbs" sections bulb.stl
 expect 2 "$nurbs" clean wigley.json ship.json --shift 1,2
 expect 0 "$nurbs" clean wigley.json kilometres.json --scale 1000

@@ -55,6 +55,10 @@ static int run(int argc, char **argv)
                                    {"lpp", OPTION_LENGTH, &hull.length, 0, 0},
                                    {"output", OPTION_OUTPUT, &output, 0, 0}};
     int code = parse_options(argc, argv, OPTION_COUNT_OF(options), options, one_file, &json);
+    if (code == CLI_OK && (rows || columns) && !is_grid(output))
+        code = cli_usage("--rows and --columns: they divide the points of a grid, expected an "
+                         "output in .csv, '%s' holds the surface",
+                         output);
     return code == CLI_OK ? make(argv[optind], &hull, rows, columns, output, json) : code;
 }
 
@@ -69,6 +73,6 @@ const subcommand sections_command = {
     "  points on it (.csv), sections from small to large x.\n"
     "  --tolerance T  metres the surface may lie off the hull (5e-4 of its length); sections and\n"
     "                 points are added until it is kept\n"
-    "  --rows N, --columns N   points of the grid (those that the surface was made from)\n"
+    "  --rows N, --columns N   points of a grid in .csv (those that the surface was made from)\n"
     "  --level Z      height of the water surface (0)\n"
     "  --lpp L        reference length kept in OUT\n"};
