@@ -1,6 +1,6 @@
 /* The potential on hull and free surface beside exact values, the Kelvin solver and itself.
- * Usage: igabem_bench_exterior spheroid | wigley | code | [double-model] HULL.json... |
- * [double-model] cut|pressure CELLS HULL.json... (no argument: the first three) */
+ * Usage: igabem_bench_exterior spheroid | wigley | thin | code | [double-model] HULL.json... |
+ * [double-model] cut|pressure CELLS HULL.json... (no argument: spheroid wigley code) */
 #include <igabem/igabem.h>
 #include <nurbs/nurbs.h>
 
@@ -180,6 +180,81 @@ static void wigleys(void)
     }
 }
 
+/* Of the Kochin function, the angles that a cut holds. */
+static double kochin_within(const igabem_solution *solution, double limit)
+{
+    enum { N = 400 };
+    double t[N], h[N][2], dcw[N], step = asinh(limit) / N, sum = 0.0;
+    for (int i = 0; i < N; i++)
+        t[i] = sinh((i + 0.5) * step);
+    if (igabem_kochin(solution, N, t, h, dcw))
+        return NAN;
+    for (int i = 0; i < N; i++)
+        sum += 2.0 * dcw[i] * cosh((i + 0.5) * step) * step;
+    return sum;
+}
+
+/* The double model on hulls that get thinner, over Michell's integral up to its own last angle. */
+static void thin_limit(void)
+{
+    enum { SPEEDS = 4, BEAMS = 3, CELLS = 2 };
+    static const double froude[SPEEDS] = {0.25, 0.30, 0.35, 0.40};
+    static const double beam[BEAMS] = {0.02, 0.01, 0.005}, cells[CELLS] = {24, 36};
+    double ratio[BEAMS][CELLS][SPEEDS], share[SPEEDS];
+    for (int b = 0; b < BEAMS; b++) {
+        nurbs_surface *surface = NULL;
+        nurbs_status made = nurbs_make_wigley(1.0, beam[b], 0.0625, &surface);
+        igabem_hull *hull = body(made, surface);
+        igabem_options options = exterior(0.0);
+        igabem_forces forces[MOST_SPEEDS], thin[MOST_SPEEDS];
+        options.formulation = IGABEM_FORMULATION_MICHELL;
+        options.elements_u = 32;
+        options.elements_v = 8;
+        sweep(hull, &options, SPEEDS, froude, thin);
+        for (int k = 0; k < SPEEDS && b == 0; k++) {
+            igabem_solution *solution = NULL;
+            options.froude = froude[k];
+            share[k] = igabem_solve(hull, &options, &solution)
+                           ? NAN
+                           : kochin_within(solution, 4.0) / thin[k].cw;
+            igabem_solution_free(solution);
+        }
+        options.formulation = IGABEM_FORMULATION_DOUBLE_MODEL;
+        options.surface_upstream = 0.4;
+        options.surface_downstream = 0.3;
+        options.surface_side = 0.5;
+        for (int c = 0; c < CELLS; c++) {
+            options.surface_cells = cells[c];
+            sweep(hull, &options, SPEEDS, froude, forces);
+            for (int k = 0; k < SPEEDS; k++)
+                ratio[b][c][k] = forces[k].cw / (thin[k].cw * share[k]);
+        }
+        igabem_hull_free(hull);
+    }
+    printf("\nWigley hull, T/L 0.0625, double-model: C_w over Michell's, both of t < 4\n\n| B/L | "
+           "cells |");
+    for (int k = 0; k < SPEEDS; k++)
+        printf(" Fr %.2f |", froude[k]);
+    printf("\n|---|---|---|---|---|---|\n");
+    for (int c = 0; c < CELLS; c++) {
+        for (int b = 0; b < BEAMS; b++) {
+            printf("| %g | %g |", beam[b], cells[c]);
+            for (int k = 0; k < SPEEDS; k++)
+                printf(" %.4f |", ratio[b][c][k]);
+            printf("\n");
+        }
+        /* A parabola through the three. */
+        printf("| extrapolated | %g |", cells[c]);
+        for (int k = 0; k < SPEEDS; k++)
+            printf(" %.4f |", (8.0 * ratio[2][c][k] - 6.0 * ratio[1][c][k] + ratio[0][c][k]) / 3.0);
+        printf("\n");
+    }
+    printf("| Michell's share of t > 4 | |");
+    for (int k = 0; k < SPEEDS; k++)
+        printf(" %.2f %% |", 100.0 * (1.0 - share[k]));
+    printf("\n");
+}
+
 /* What the settings of the free surface change. */
 static void settings(const char *path)
 {
@@ -228,20 +303,6 @@ static void settings(const char *path)
     }
     igabem_hull_free(hull);
     nurbs_hull_free(source);
-}
-
-/* Of the Kochin function, the angles that a cut holds. */
-static double kochin_within(const igabem_solution *solution, double limit)
-{
-    enum { N = 400 };
-    double t[N], h[N][2], dcw[N], step = asinh(limit) / N, sum = 0.0;
-    for (int i = 0; i < N; i++)
-        t[i] = sinh((i + 0.5) * step);
-    if (igabem_kochin(solution, N, t, h, dcw))
-        return NAN;
-    for (int i = 0; i < N; i++)
-        sum += 2.0 * dcw[i] * cosh((i + 0.5) * step) * step;
-    return sum;
 }
 
 /* One solution: C_w, its part of t < 4, what cuts so far off the side say over that part, and what
@@ -350,6 +411,8 @@ int main(int argc, char **argv)
             spheroids();
         else if (strcmp(argv[k], "wigley") == 0)
             wigleys();
+        else if (strcmp(argv[k], "thin") == 0)
+            thin_limit();
         else if (strcmp(argv[k], "code") == 0)
             another_code();
         else if (strcmp(argv[k], "cut") == 0 && k + 2 < argc) {

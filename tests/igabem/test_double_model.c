@@ -97,6 +97,39 @@ static void test_thin(void)
     CHECK_RELATIVE(gap[1], 0.5 * gap[0], 0.2);
 }
 
+/* C_w of the angles t < 4, where a double model stops. */
+static double cw_within(const igabem_hull *hull, const igabem_options *options)
+{
+    enum { N = 200 };
+    double t[N], h[N][2], dcw[N], step = asinh(4.0) / N, sum = 0.0;
+    for (int i = 0; i < N; i++)
+        t[i] = sinh((i + 0.5) * step);
+    igabem_solution *solution = solve(hull, options);
+    CU_ASSERT_EQUAL_FATAL(igabem_kochin(solution, N, t, h, dcw), IGABEM_OK);
+    for (int i = 0; i < N; i++)
+        sum += 2.0 * dcw[i] * cosh((i + 0.5) * step) * step;
+    igabem_solution_free(solution);
+    return sum;
+}
+
+/* Michell's value is the limit of a thin ship: a parabola in the breadth through three hulls. */
+static void test_michell(void)
+{
+    static const double breadth[3] = {0.02, 0.01, 0.005}, froude[2] = {0.28, 0.35};
+    for (int f = 0; f < 2; f++) {
+        double ratio[3];
+        for (int k = 0; k < 3; k++) {
+            igabem_hull *hull = wigley_hull(breadth[k], 0.0625, 20, 5);
+            igabem_options options = double_model(froude[f], 20.0), thin = options;
+            thin.formulation = IGABEM_FORMULATION_MICHELL;
+            ratio[k] = cw_within(hull, &options) / cw_within(hull, &thin);
+            igabem_hull_free(hull);
+        }
+        CHECK_CLOSE((8.0 * ratio[2] - 6.0 * ratio[1] + ratio[0]) / 3.0, 1.0, 2e-3);
+        CU_ASSERT_TRUE(fabs(ratio[2] - 1.0) < 0.65 * fabs(ratio[1] - 1.0));
+    }
+}
+
 /* One elevation on the grid and, by Bernoulli's equation, on the waterline of the hull. */
 static void test_elevation(void)
 {
@@ -185,8 +218,9 @@ static void test_momentum(void)
 }
 
 static const struct check_case cases[] = {
-    {"double-body flow", test_flow}, {"thin hull", test_thin}, {"elevation", test_elevation},
-    {"towing tank", test_tank},      {"sweep", test_sweep},    {"momentum", test_momentum},
+    {"double-body flow", test_flow}, {"thin hull", test_thin},   {"Michell's limit", test_michell},
+    {"elevation", test_elevation},   {"towing tank", test_tank}, {"sweep", test_sweep},
+    {"momentum", test_momentum},
 };
 
 CHECK_MAIN("double model", cases)
