@@ -1,6 +1,6 @@
 /* The potential on hull and free surface beside exact values, the Kelvin solver and itself.
  * Usage: igabem_bench_exterior spheroid | wigley | thin | code | [double-model] HULL.json... |
- * [double-model] cut|pressure CELLS HULL.json... (no argument: spheroid wigley code) */
+ * [double-model] cut|pressure|first CELLS HULL.json... (no argument: spheroid wigley code) */
 #include <igabem/igabem.h>
 #include <nurbs/nurbs.h>
 
@@ -366,7 +366,7 @@ static void cuts(double cells, const char *path)
         options[k].elements_v = 10;
         options[k].surface_rows = round(0.55 * cells);
         options[k].surface_side = 0.8;
-        options[k].surface_downstream = 1.3;
+        options[k].surface_downstream = 1.8;
     }
     if (igabem_solve_many(hull, SHIP_SPEEDS, options, solutions))
         fprintf(stderr, "%s\n", igabem_last_error());
@@ -404,6 +404,31 @@ static void pressures(double cells, const char *path)
     nurbs_hull_free(source);
 }
 
+/* What the width of the first row changes, in per cent of half a cell's. */
+static void first_rows(double cells, const char *path)
+{
+    static const double first[] = {0.5, 0.35, 0.7};
+    nurbs_hull *source = NULL;
+    igabem_hull *hull = read_hull(path, &source);
+    igabem_forces forces[3][MOST_SPEEDS];
+    if (!hull)
+        return;
+    for (size_t r = 0; r < 3; r++) {
+        igabem_options options = exterior(cells);
+        options.elements_u = 40;
+        options.elements_v = 10;
+        options.surface_first = first[r];
+        sweep(hull, &options, SHIP_SPEEDS, ship_froude, forces[r]);
+    }
+    for (size_t k = 0; k < SHIP_SPEEDS; k++)
+        printf("| %s | %g | %.2f | %.4f | %+.1f | %+.1f |\n", name_of(path), cells, ship_froude[k],
+               1e3 * forces[0][k].cw, 100.0 * (forces[1][k].cw / forces[0][k].cw - 1.0),
+               100.0 * (forces[2][k].cw / forces[0][k].cw - 1.0));
+    fflush(stdout);
+    igabem_hull_free(hull);
+    nurbs_hull_free(source);
+}
+
 int main(int argc, char **argv)
 {
     for (int k = 1; k < argc; k++) {
@@ -426,6 +451,10 @@ int main(int argc, char **argv)
                    "|\n");
             for (double cells = atof(argv[++k]); k + 1 < argc;)
                 pressures(cells, argv[++k]);
+        } else if (strcmp(argv[k], "first") == 0 && k + 2 < argc) {
+            printf("| hull | cells | Fr | C_w x 1000 | first row times 0.7, per cent | 1.4 |\n");
+            for (double cells = atof(argv[++k]); k + 1 < argc;)
+                first_rows(cells, argv[++k]);
         } else if (igabem_formulation_parse(argv[k], &settings_of))
             continue;
         else

@@ -118,7 +118,7 @@ igabem_status free_waves_fit(double k0, double stern, double length, size_t n, c
         status = free_waves_elevation(waves, n, x, y, right);
     for (size_t i = 0; i < n && !status; i++)
         left += (right[i] - zeta[i]) * (right[i] - zeta[i]);
-    waves->misfit = sqrt(left / whole);
+    waves->misfit = whole > 0 ? sqrt(left / whole) : 0.0;
     free(matrix);
     return status;
 }
