@@ -45,6 +45,9 @@ FAIL(LAPACKE_dgecon, (int o, char norm, in n, from a, in lda, double anorm, out 
      (o, norm, n, a, lda, anorm, rcond))
 FAIL(LAPACKE_dgels, (int o, char t, in m, in n, in nrhs, out a, in lda, out b, in ldb),
      (o, t, m, n, nrhs, a, lda, b, ldb))
+FAIL(LAPACKE_dgelsd,
+     (int o, in m, in n, in nrhs, out a, in lda, out b, in ldb, out s, double rcond, in *rank),
+     (o, m, n, nrhs, a, lda, b, ldb, s, rcond, rank))
 FAIL(LAPACKE_dgeqp3, (int o, in m, in n, out a, in lda, in *p, out tau), (o, m, n, a, lda, p, tau))
 FAIL(LAPACKE_dgeqrf, (int o, in m, in n, out a, in lda, out tau), (o, m, n, a, lda, tau))
 FAIL(LAPACKE_dgesdd,

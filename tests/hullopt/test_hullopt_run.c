@@ -103,6 +103,18 @@ static size_t count(const char *text, const char *word)
     return n;
 }
 
+/* Empties the raster pictures: any letters may stand in them. */
+static void drop_pictures(char *text)
+{
+    static const char start[] = "base64,";
+    for (char *at = text; (at = strstr(at, start)) != NULL;) {
+        at += strlen(start);
+        char *end = strchr(at, '"');
+        if (end)
+            memmove(at, end, strlen(end) + 1);
+    }
+}
+
 /* One file: nothing is fetched from anywhere, and every drawing is closed. */
 static void test_report(void)
 {
@@ -111,6 +123,7 @@ static void test_report(void)
     CU_ASSERT_PTR_NOT_NULL_FATAL(text);
     snprintf(path, sizeof path, "%s/report.html", out);
     CU_ASSERT_TRUE(runner_read(path, text, ROOM) > 50000);
+    drop_pictures(text);
     CU_ASSERT_TRUE(count(text, "<svg") >= 10);
     CU_ASSERT_EQUAL(count(text, "<svg"), count(text, "</svg>"));
     CU_ASSERT_EQUAL(count(text, "http"), count(text, "xmlns=\"http://www.w3.org/2000/svg\""));

@@ -265,17 +265,12 @@ static bool look(struct problem *p, const double *u, struct way *w, double *gain
 bool snapshots_match(struct problem *p, const double *u, struct snapshots_match *m)
 {
     const struct config *c = p->config;
-    struct way w;
+    struct way w = {0};
     struct evaluation e;
-    double *best = malloc(3 * count_points(p) * sizeof *best), *change = NULL, distance = INFINITY;
-    bool ok = (best || core_no_memory()) && way_start(p, u, &w);
-    if (!ok) {
-        free(best);
-        return false;
-    }
-    change = malloc((w.params + w.modes) * sizeof *change);
+    double *best = malloc(3 * count_points(p) * sizeof *best), distance = INFINITY;
+    double *change = malloc((c->n_parameters + galv_model_modes(p->model)) * sizeof *change);
     m->residual = INFINITY;
-    ok = change || core_no_memory();
+    bool ok = ((best && change) || core_no_memory()) && way_start(p, u, &w);
     for (int n = 0; n < STEPS && ok; n++) {
         ok = step(c, &w, change) && look(p, u, &w, change + w.params, &distance);
         if (!ok || !(distance < WORTH * m->residual))
