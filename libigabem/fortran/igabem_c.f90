@@ -572,6 +572,12 @@ module igabem_c
       import
       type(c_ptr), value :: hull
     end function
+    integer(c_int) function nurbs_hull_moves(hull, moved, move) bind(c)
+      import
+      type(c_ptr), value :: hull
+      type(c_ptr), value :: moved
+      real(c_double), intent(inout), optional :: move(*)
+    end function
     integer(c_int) function nurbs_hull_read_patches(path, tolerance, patches, report, &
         report_size) bind(c)
       import

@@ -2,7 +2,7 @@
 """A small server of UM-Bridge models for the tests: model_server.py FOLDER [SECONDS]
 
 Writes its port to FOLDER/port and every call to FOLDER/calls. 'bowl' takes a pair and a number and gives
-the value, then a pair; it sleeps SECONDS, refuses a first input above 1.8, and answers 503 while FOLDER/busy exists.
+the value, then a pair; it sleeps SECONDS, refuses a first input above 1.7, and answers 503 while FOLDER/busy exists.
 'plain' is the same without derivatives."""
 import json
 import os
@@ -53,8 +53,8 @@ class Handler(BaseHTTPRequestHandler):
         if os.path.exists(os.path.join(folder, "busy")):
             return self.error(503, "Busy", "try later")
         (a, b), (c,) = body["input"]
-        if a > 1.8:
-            return self.error(400, "InvalidInput", "a is above 1.8")
+        if a > 1.7:
+            return self.error(400, "InvalidInput", "a is above 1.7")
         if call == "Evaluate":
             with lock:
                 at_once[0] += 1

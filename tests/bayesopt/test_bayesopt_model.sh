@@ -41,7 +41,8 @@ says 'start: 0 of 24 points asked, none succeeded yet'
 says 'running: .* of 24 points asked, best '
 says 'the budget of evaluations is spent: 24 of 24'
 expect 0 "$tool" export bowl.db
-grep -q 'InvalidInput: a is above 1.8' out || fail "what the model refused: $(cat out)"
+# One of the ten points of a Latin hypercube always is.
+grep -q 'InvalidInput: a is above 1.7' out || fail "what the model refused: $(cat out)"
 awk -F, '$3 == "failed" { n++ } $3 == "lost" { m++ } END { exit !(n > 0 && !m) }' out || fail "states: $(cat out)"
 
 # The same model elsewhere is the same study; another model or setting is not.

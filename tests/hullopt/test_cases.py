@@ -75,7 +75,8 @@ def dtmb5415_l2sea():
     within(told["total_resistance_after"], 0.5 * 998.5 * speed ** 2 * best["wetted_area"] * (best["cw"] + friction), 1e-9, "R_t")
     assert told["evaluations"] == 1
     plan = json.loads(do("hullopt", "check", "dtmb5415_l2sea.yaml", "--json"))
-    assert 0 < plan["coarse_seconds"] * plan["coarse_solves"] < plan["seconds"] and plan["coarse_solves"] == 6 * 28, plan
+    # Its one formulation has derivatives of its own: nothing is left to differences.
+    assert plan["coarse_seconds"] == plan["coarse_solves"] == 0 < plan["seconds"], plan
 
 
 def own_iges():
