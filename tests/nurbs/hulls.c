@@ -75,7 +75,9 @@ double lowest_y(const nurbs_surface *surface, size_t n)
 const char *scratch_file(const char *name)
 {
     static char path[256];
-    snprintf(path, sizeof path, "nurbs_test_%ld_%s", (long)getpid(), name);
+    const char *folder = getenv("TMPDIR");
+    snprintf(path, sizeof path, "%s/nurbs_test_%ld_%s", folder ? folder : "/tmp", (long)getpid(),
+             name);
     return path;
 }
 

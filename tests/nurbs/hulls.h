@@ -24,7 +24,7 @@ double surface_distance(const nurbs_surface *a, const nurbs_surface *b, size_t n
 /* Smallest y on n x n parameters of the unit square. */
 double lowest_y(const nurbs_surface *surface, size_t n);
 
-/* A file in the folder of the test program's scratch data; the name is kept until the next call. */
+/* A file in TMPDIR or /tmp, which the test removes; the name is kept until the next call. */
 const char *scratch_file(const char *name);
 
 /* Writes text to a scratch file and returns its path. */

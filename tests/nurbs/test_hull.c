@@ -335,6 +335,7 @@ static void keeps_the_design_grid_of_its_file(void)
     const char *path = scratch_file("hull5415_again.json");
     CU_ASSERT_EQUAL(nurbs_hull_write(hull, "copied", path), NURBS_OK);
     CU_ASSERT_EQUAL_FATAL(nurbs_hull_read(path, NULL, &again), NURBS_OK);
+    remove(path);
     CHECK_CLOSE(nurbs_hull_lpp(again), 5.72, 0);
     CHECK_CLOSE(nurbs_hull_hydrostatics(again)->volume, nurbs_hull_hydrostatics(hull)->volume, 0);
     nurbs_grid_free(grid);
@@ -351,6 +352,7 @@ static void refuses_with_the_file_and_the_reason(void)
     CU_ASSERT_EQUAL(nurbs_patches_write(patches, path), NURBS_OK);
     CU_ASSERT_EQUAL(nurbs_hull_read(path, NULL, &hull), NURBS_ERROR_GEOMETRY);
     CU_ASSERT_PTR_NOT_NULL(strstr(nurbs_last_error(), "dry_wigley.json: nothing lies below"));
+    remove(path);
     CU_ASSERT_EQUAL(nurbs_hull_read("no_such_file.json", NULL, &hull), NURBS_ERROR_FILE);
     nurbs_hull_options options;
     nurbs_hull_options_init(&options);
