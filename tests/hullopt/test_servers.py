@@ -139,6 +139,13 @@ try:
     assert end.returncode == 0 and "failed: solve: no such luck" in end.stderr, end.stderr
     assert len(history("design")[0]) == 10 and history("design")[1] == 1 and once.asked == 10, once.asked
 
+    # Behind one URL a balancer answers 503 until it has noticed, after some seconds, that a machine is gone.
+    slow = Broken(url, 4, lambda h, body, ask: h.answer(503, b"{}") if time.time() < slow.until else h.answer(*ask()))
+    slow.until = time.time() + 10
+    end = run(config, "slow", "--server", slow.url)
+    assert end.returncode == 0 and "not asked any more" not in end.stderr, end.stderr
+    assert history("slow") == (wanted, 0) and slow.asked > 10, slow.asked
+
     # Several at once, the time that one may take: what is not answered goes to the other.
     late = Broken(url, 2, lambda h, body, ask: time.sleep(30))
     end = run(config, "late", "--jobs", "2", "--timeout", "5", "--server", f"{late.url},{url}")

@@ -14,8 +14,10 @@ static const double SAME_CW = 1e-6;
 static const double SAME_HULL = 1e-3;
 /* Stands for a figure without a value, which none of them has otherwise. */
 static const double NONE = -1;
-/* Before a server that failed once is asked again, s. */
-enum { PAUSE = 2, ATTEMPTS = 2 };
+/* Before a server that failed once is asked again, s, and twice as long each time after. The last
+ * one left is waited for longer, as behind one URL a balancer may need seconds to notice that one
+ * of its machines is gone. */
+enum { PAUSE = 2, ATTEMPTS = 2, LAST_ATTEMPTS = 4 };
 
 static const size_t FIGURES[REMOTE_FIGURES] = {
     offsetof(struct evaluation, rw),        offsetof(struct evaluation, share_beyond_cutoff),
@@ -183,6 +185,27 @@ void remote_choose(struct remote *remote, size_t place)
         remote->first = (remote->first + 1) % remote->n;
 }
 
+static bool is_last(const struct remote *remote, uint64_t lost, size_t i)
+{
+    for (size_t k = 0; k < remote->n; k++)
+        if (k != i && !is_lost(lost, k))
+            return false;
+    return true;
+}
+
+/* Asks server i, again where it does not answer. */
+static int ask(const struct remote *remote, const struct evaluation *e, size_t i, double *output,
+               char *reason)
+{
+    int attempts = is_last(remote, remote->lost | e->lost, i) ? LAST_ATTEMPTS : ATTEMPTS;
+    int status = umbridge_numbers(&remote->server[i], e->u, output, reason);
+    for (int n = 1; n < attempts && status == UMBRIDGE_LOST; n++) {
+        sleep((unsigned)PAUSE << (n - 1));
+        status = umbridge_numbers(&remote->server[i], e->u, output, reason);
+    }
+    return status;
+}
+
 /* The model's own error is about the design. */
 static bool fail_design(const char *reason)
 {
@@ -197,19 +220,13 @@ bool remote_solve(struct remote *remote, struct evaluation *e)
     char reason[UMBRIDGE_SENTENCE] = "";
     for (size_t k = 0; k < remote->n; k++) {
         size_t i = (remote->first + k) % remote->n;
-        const struct umbridge *server = &remote->server[i];
-        int status = UMBRIDGE_LOST;
-        for (int n = 0; n < ATTEMPTS && status == UMBRIDGE_LOST && !is_lost(remote->lost, i); n++) {
-            if (n)
-                sleep(PAUSE);
-            status = umbridge_numbers(server, e->u, output, reason);
-        }
-        if (status == 0 && take(remote, server, output, e, reason))
+        if (is_lost(remote->lost, i))
+            continue;
+        int status = ask(remote, e, i, output, reason);
+        if (status == 0 && take(remote, &remote->server[i], output, e, reason))
             return true;
         if (status == UMBRIDGE_MODEL)
             return fail_design(reason);
-        if (is_lost(remote->lost, i))
-            continue;
         e->lost |= (uint64_t)1 << i;
         snprintf(e->lost_reason, sizeof e->lost_reason, "%s", reason);
     }
