@@ -46,7 +46,8 @@ def call(u, **config):
 try:
     assert ask("/Info") == (200, {"protocolVersion": "1.0", "models": ["latent", "design"]})
     _, info = ask("/ModelInfo", {"name": "latent"})
-    assert info["support"] == {"Evaluate": True, "Gradient": False, "ApplyJacobian": False, "ApplyHessian": False}
+    assert info["support"] == {"Evaluate": True, "Gradient": True, "ApplyJacobian": True, "ApplyHessian": False}
+    assert not ask("/ModelInfo", {"name": "design"})[1]["support"]["Gradient"]
     (n,) = ask("/InputSizes", {"name": "latent"})[1]["inputSizes"]
     assert n == len(info["inputBounds"]) and all(a < 0 < b for a, b in info["inputBounds"])
     assert ask("/OutputSizes", {"name": "latent", "config": {"froude": [0.28, 0.3, 0.35]}})[1] == {"outputSizes": [3, 1, 5]}
@@ -80,6 +81,35 @@ try:
     kept = [a[1]["output"][1][0] for a in answers]
     assert all(abs(abs(v - 1) - 0.02 - k) < 1e-9 for v, k in zip(volume, kept)), (volume, kept)
 
+    # Derivatives against central differences of C_w, and J vec against J^T sens: (sens, J vec) = (J^T sens, vec).
+    speeds = {"froude": [0.316, 0.28]}
+    middle = [0.1 * b if i % 2 else 0.2 * a for i, (a, b) in enumerate(info["inputBounds"])]
+    sens = [[1, 0], [0, 1]]
+    rows = [ask("/Gradient", call(middle, **speeds) | {"outWrt": 0, "inWrt": 0, "sens": s})[1]["output"] for s in sens]
+    largest = [max(map(abs, row)) for row in rows]
+    for k, (a, b) in enumerate(info["inputBounds"]):
+        step = 0.02 * (b - a)
+        sides = [ask("/Evaluate", call([u + side * step * (i == k) for i, u in enumerate(middle)], **speeds))[1]["output"][0]
+                 for side in (1, -1)]
+        for j in range(2):
+            slope = (sides[0][j] - sides[1][j]) / (2 * step)
+            assert abs(slope - rows[j][k]) < 5e-3 * largest[j], (j, k, slope, rows[j])
+    status, answer = ask("/ApplyJacobian", call(middle, **speeds) | {"outWrt": 0, "inWrt": 0, "vec": middle})
+    assert status == 200 and len(answer["output"]) == 2, answer
+    for row, value in zip(rows, answer["output"]):
+        assert abs(sum(a * b for a, b in zip(row, middle)) - value) < 1e-12 * sum(abs(a * b) for a, b in zip(row, middle))
+
+    wanted = call(parent) | {"outWrt": 0, "inWrt": 0, "sens": [1.0]}
+    refused(400, "UnsupportedFeature", "output 1 has no derivatives", "/Gradient", wanted | {"outWrt": 1})
+    refused(400, "InvalidInput", "outWrt", "/Gradient", wanted | {"outWrt": 3})
+    refused(400, "InvalidInput", "inWrt", "/Gradient", wanted | {"inWrt": 1})
+    refused(400, "InvalidInput", "inWrt", "/ApplyJacobian", wanted | {"inWrt": -1})
+    refused(400, "InvalidInput", "sens is no list of 1", "/Gradient", wanted | {"sens": [1, 2]})
+    refused(400, "InvalidInput", "sens[0]", "/Gradient", wanted | {"sens": ["a"]})
+    refused(400, "InvalidInput", f"vec is no list of {n}", "/ApplyJacobian", wanted)
+    refused(400, "UnsupportedFeature", "derivatives", "/ApplyHessian", wanted)
+    refused(400, "UnsupportedFeature", "derivatives", "/Gradient", {"name": "design", "input": [parent]})
+
     refused(400, "ModelNotFound", "'hull'", "/Evaluate", {"name": "hull"})
     refused(400, "InvalidInput", "name is missing", "/InputSizes", {})
     refused(400, "InvalidInput", "no JSON", "/Evaluate", b'{"name": "latent"')
@@ -92,7 +122,6 @@ try:
     refused(400, "InvalidInput", "above 0", "/OutputSizes", {"name": "latent", "config": {"froude": 0}})
     refused(400, "InvalidInput", "mich", "/Evaluate", call(parent, formulation="mich"))
     refused(400, "InvalidInput", "other than", "/Evaluate", call(parent, fr=0.3))
-    refused(400, "UnsupportedFeature", "derivatives", "/Gradient", call(parent))
     refused(404, "InvalidInput", "no such call", "/evaluate", call(parent))
     refused(405, "InvalidInput", "expected POST", "/Evaluate")
     refused(405, "InvalidInput", "expected GET", "/Info", {})

@@ -58,6 +58,19 @@ static bool evaluate_latent(const struct served *model, const double *input, con
            value_design(server, input, &variant, output, error);
 }
 
+static bool differentiate_latent(const struct served *model, const double *input,
+                                 const json_t *config, size_t k, double *jacobian,
+                                 struct served_error *error)
+{
+    struct server *server = model->user_data;
+    struct variant variant;
+    if (k > 0)
+        return served_fail(error, SERVED_UNSUPPORTED,
+                           "output %zu has no derivatives, only output 0 has, C_w by speed", k);
+    return variant_read(server->config, config, &variant, error) &&
+           designs_differentiate(server->designs, input, &variant, jacobian, error);
+}
+
 /* Model 'design' is what 'hullopt run --server' asks: whoever asks says in every request which
  * problem is meant, so that it reaches the server through a load balancer too. */
 static bool is_ours(const struct server *server, const json_t *config, struct served_error *error)
@@ -116,20 +129,22 @@ static bool serve(const struct options *options, uint16_t port, struct server *s
 {
     char sentence[SERVED_SENTENCE];
     size_t modes = designs_modes(server->designs);
-    const struct served models[] = {{.name = "latent",
-                                     .n = modes,
-                                     .lower = designs_lower(server->designs),
-                                     .upper = designs_upper(server->designs),
-                                     .sizes = sizes,
-                                     .labels = labels,
-                                     .evaluate = evaluate_latent,
-                                     .user_data = server},
-                                    {.name = "design",
-                                     .n = modes,
-                                     .sizes = design_sizes,
-                                     .labels = design_labels,
-                                     .evaluate = evaluate_design,
-                                     .user_data = server}};
+    const struct served models[] = {
+        {.name = "latent",
+         .n = modes,
+         .lower = designs_lower(server->designs),
+         .upper = designs_upper(server->designs),
+         .sizes = sizes,
+         .labels = labels,
+         .evaluate = evaluate_latent,
+         .differentiate = designs_have_derivatives(server->designs) ? differentiate_latent : NULL,
+         .user_data = server},
+        {.name = "design",
+         .n = modes,
+         .sizes = design_sizes,
+         .labels = design_labels,
+         .evaluate = evaluate_design,
+         .user_data = server}};
     struct http *http =
         http_start(options->address, port, sizeof models / sizeof *models, models, sentence);
     if (!http)

@@ -235,3 +235,14 @@ bool slopes_setting(const struct slopes *s, size_t m, const size_t parts[2], dou
     igabem_tangent_free(tangent);
     return ok || core_fail("tangents: %s", igabem_last_error());
 }
+
+bool slopes_cw(const struct slopes *s, size_t m, double *dcw)
+{
+    igabem_tangent *tangent;
+    bool ok = igabem_tangent_create(s->design.body, s->held[0].solution[m],
+                                    galv_model_modes(s->problem->model), s->move,
+                                    &tangent) == IGABEM_OK &&
+              igabem_tangent_cw(tangent, dcw) == IGABEM_OK;
+    igabem_tangent_free(tangent);
+    return ok || core_fail("tangents: %s", igabem_last_error());
+}

@@ -55,4 +55,7 @@ bool slopes_setting(const struct slopes *slopes, size_t m, const size_t parts[2]
                     double *darea, igabem_pressure_sample *dsample,
                     const igabem_solution **solution);
 
+/* What C_w of setting m changes by for a unit of each latent variable: fills dcw[modes]. */
+bool slopes_cw(const struct slopes *slopes, size_t m, double *dcw);
+
 #endif

@@ -2,6 +2,7 @@
 
 #include "cli.h"
 #include "core/problem.h"
+#include "core/slopes.h"
 
 #include <pthread.h>
 #include <stdatomic.h>
@@ -22,6 +23,7 @@ struct frozen {
 struct job {
     const double *u;
     const struct variant *variant;
+    bool is_derivative; /* output: the Jacobian of C_w by speed, not the figures */
     double *output;
     struct served_error *error;
     bool ok, is_done;
@@ -108,22 +110,47 @@ static const struct evaluation *set_variant(struct worker *w, const struct varia
     return &f->parent;
 }
 
-static bool evaluate_job(struct worker *w, const struct job *job)
+/* Whatever failed, when the server is stopping that is why. */
+static bool fail_job(const struct worker *w, const struct job *job, const char *reason)
 {
-    const struct evaluation *parent = set_variant(w, job->variant);
+    return atomic_load(&w->designs->is_stopping)
+               ? served_fail(job->error, SERVED_STOPPING, STOPPING)
+               : served_fail(job->error, SERVED_INVALID_OUTPUT, "%s", reason);
+}
+
+static bool evaluate_job(struct worker *w, const struct job *job, const struct evaluation *parent)
+{
     struct evaluation e;
-    if (!parent && atomic_load(&w->designs->is_stopping))
-        return served_fail(job->error, SERVED_STOPPING, STOPPING);
-    if (!parent)
-        return served_fail(job->error, SERVED_INVALID_OUTPUT, "%s", core_sentence());
     evaluation_start(1, "served", job->u, &e);
     evaluate(&w->problem, &e, NULL, NULL);
-    if (e.failed && atomic_load(&w->designs->is_stopping))
-        return served_fail(job->error, SERVED_STOPPING, STOPPING);
     if (e.failed)
-        return served_fail(job->error, SERVED_INVALID_OUTPUT, "%s", e.reason);
+        return fail_job(w, job, e.reason);
     variant_output(job->variant, w->designs->config, parent, &e, job->output);
     return true;
+}
+
+static bool differentiate_job(struct worker *w, const struct job *job)
+{
+    size_t modes = galv_model_modes(w->problem.model);
+    struct slopes slopes;
+    slopes_start(&w->problem, &slopes);
+    bool has = slopes.has[0]; /* one formulation at all speeds */
+    bool ok = has && slopes_open(&slopes, job->u);
+    for (size_t m = 0; m < slopes.n && ok; m++)
+        ok = slopes_cw(&slopes, m, job->output + m * modes);
+    slopes_end(&slopes);
+    if (!has)
+        return served_fail(job->error, SERVED_UNSUPPORTED, "C_w by '%s' has no derivatives",
+                           igabem_formulation_name(job->variant->formulation));
+    return ok || fail_job(w, job, core_sentence());
+}
+
+static bool do_job(struct worker *w, const struct job *job)
+{
+    const struct evaluation *parent = set_variant(w, job->variant);
+    if (!parent)
+        return fail_job(w, job, core_sentence());
+    return job->is_derivative ? differentiate_job(w, job) : evaluate_job(w, job, parent);
 }
 
 /* The next job, or NULL at the end. */
@@ -169,27 +196,40 @@ static void *work(void *argument)
     bool ok = prepare(w);
     report_ready(w->designs, ok);
     while (ok && (job = take(w->designs)) != NULL)
-        finish(w->designs, job, evaluate_job(w, job));
+        finish(w->designs, job, do_job(w, job));
     return NULL;
+}
+
+static bool wait_for(struct designs *d, struct job *job)
+{
+    pthread_mutex_lock(&d->lock);
+    if (atomic_load(&d->is_stopping)) {
+        job->is_done = true;
+        served_fail(job->error, SERVED_STOPPING, STOPPING);
+    } else {
+        *d->last = job;
+        d->last = &job->next;
+        pthread_cond_signal(&d->asked);
+    }
+    while (!job->is_done)
+        pthread_cond_wait(&d->answered, &d->lock);
+    pthread_mutex_unlock(&d->lock);
+    return job->ok;
 }
 
 bool designs_evaluate(struct designs *d, const double *u, const struct variant *variant,
                       double *output, struct served_error *error)
 {
-    struct job job = {.u = u, .variant = variant, .output = output, .error = error};
-    pthread_mutex_lock(&d->lock);
-    if (atomic_load(&d->is_stopping)) {
-        job.is_done = true;
-        served_fail(error, SERVED_STOPPING, STOPPING);
-    } else {
-        *d->last = &job;
-        d->last = &job.next;
-        pthread_cond_signal(&d->asked);
-    }
-    while (!job.is_done)
-        pthread_cond_wait(&d->answered, &d->lock);
-    pthread_mutex_unlock(&d->lock);
-    return job.ok;
+    return wait_for(d, &(struct job){.u = u, .variant = variant, .output = output, .error = error});
+}
+
+bool designs_differentiate(struct designs *d, const double *u, const struct variant *variant,
+                           double *jacobian, struct served_error *error)
+{
+    return wait_for(
+        d,
+        &(struct job){
+            .u = u, .variant = variant, .is_derivative = true, .output = jacobian, .error = error});
 }
 
 size_t designs_modes(const struct designs *d)
@@ -210,6 +250,12 @@ const double *designs_lower(const struct designs *d)
 const double *designs_upper(const struct designs *d)
 {
     return galv_model_upper(d->workers[0].problem.model);
+}
+
+bool designs_have_derivatives(const struct designs *d)
+{
+    const struct problem *problem = designs_problem(d);
+    return !config_by_command(d->config) && slopes_has(problem, &problem->solver);
 }
 
 void designs_stop(struct designs *d)

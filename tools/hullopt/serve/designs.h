@@ -21,8 +21,15 @@ size_t designs_modes(const struct designs *designs);
 const double *designs_lower(const struct designs *designs);
 const double *designs_upper(const struct designs *designs);
 
+/* Whether C_w of the run's own formulation has derivatives by the latent variables. */
+bool designs_have_derivatives(const struct designs *designs);
+
 /* Waits for a worker and for what it says of the design at u. From any thread. */
 bool designs_evaluate(struct designs *designs, const double *u, const struct variant *variant,
                       double *output, struct served_error *error);
+/* The same for the derivatives of C_w at each speed of the variant by each latent variable: fills
+ * jacobian [speeds][modes]. */
+bool designs_differentiate(struct designs *designs, const double *u, const struct variant *variant,
+                           double *jacobian, struct served_error *error);
 
 #endif

@@ -103,10 +103,11 @@ static json_t *bounds(const struct served *model)
 /* Beside what the protocol asks for: the range of each input and the names of the outputs. */
 static bool model_info(const struct request *r, json_t **answer, struct served_error *error)
 {
+    int derivatives = r->model->differentiate != NULL;
     (void)error;
     *answer = json_pack("{s:{s:b, s:b, s:b, s:b}, s:o, s:o}", "support", "Evaluate", 1, "Gradient",
-                        0, "ApplyJacobian", 0, "ApplyHessian", 0, "inputBounds", bounds(r->model),
-                        "outputLabels", r->model->labels(r->model));
+                        derivatives, "ApplyJacobian", derivatives, "ApplyHessian", 0, "inputBounds",
+                        bounds(r->model), "outputLabels", r->model->labels(r->model));
     return true;
 }
 
@@ -198,7 +199,90 @@ static bool evaluate(const struct request *r, json_t **answer, struct served_err
 static bool no_derivative(const struct request *r, json_t **answer, struct served_error *error)
 {
     (void)answer;
-    return served_fail(error, SERVED_UNSUPPORTED, "model '%s' has no derivatives", r->model->name);
+    return served_fail(error, SERVED_UNSUPPORTED, "model '%s' has no such derivatives",
+                       r->model->name);
+}
+
+/* A whole number below n. */
+static bool read_index(const struct request *r, const char *key, size_t n, size_t *index,
+                       struct served_error *error)
+{
+    const json_t *value = json_object_get(r->body, key);
+    json_int_t number = json_integer_value(value);
+    if (!json_is_integer(value) || number < 0 || (size_t)number >= n)
+        return served_fail(error, SERVED_INVALID_INPUT, "%s is no whole number from 0 to %zu", key,
+                           n - 1);
+    *index = (size_t)number;
+    return true;
+}
+
+static bool read_vector(const struct request *r, const char *key, size_t n, double *x,
+                        struct served_error *error)
+{
+    const json_t *list = json_object_get(r->body, key);
+    if (!json_is_array(list) || json_array_size(list) != n)
+        return served_fail(error, SERVED_INVALID_INPUT, "%s is no list of %zu numbers", key, n);
+    for (size_t i = 0; i < n; i++) {
+        if (!json_is_number(json_array_get(list, i)))
+            return served_fail(error, SERVED_INVALID_INPUT, "%s[%zu] is no number", key, i);
+        x[i] = json_number_value(json_array_get(list, i));
+    }
+    return true;
+}
+
+static bool write_vector(size_t n, const double *x, json_t **answer, struct served_error *error)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < n; i++) {
+        if (!isfinite(x[i])) {
+            json_decref(list);
+            return served_fail(error, SERVED_INVALID_OUTPUT,
+                               "output[%zu] has no value for this input", i);
+        }
+        json_array_append_new(list, json_real(x[i]));
+    }
+    *answer = json_pack("{s:o}", "output", list);
+    return true;
+}
+
+/* The Jacobian J [rows][n] of one output by the one input, times the vector of the request: J^T
+ * sens, or J vec. */
+static bool differentiate(const struct request *r, const char *key, bool is_transposed,
+                          json_t **answer, struct served_error *error)
+{
+    size_t sizes[SERVED_OUTPUTS], n = r->model->n, output = 0, input = 0;
+    if (!r->model->differentiate)
+        return no_derivative(r, answer, error);
+    if (!r->model->sizes(r->model, r->config, sizes, error) ||
+        !read_index(r, "outWrt", SERVED_OUTPUTS, &output, error) ||
+        !read_index(r, "inWrt", 1, &input, error))
+        return false;
+    size_t rows = sizes[output], given = is_transposed ? rows : n, told = is_transposed ? n : rows;
+    double *work = calloc(n + given + told + rows * n, sizeof *work);
+    if (!work)
+        return no_memory(error);
+    double *x = work, *vector = x + n, *product = vector + given, *jacobian = product + told;
+    bool ok = read_input(r, x, error) && read_vector(r, key, given, vector, error) &&
+              r->model->differentiate(r->model, x, r->config, output, jacobian, error);
+    for (size_t i = 0; i < rows && ok; i++)
+        for (size_t k = 0; k < n; k++)
+            if (is_transposed)
+                product[k] += vector[i] * jacobian[i * n + k];
+            else
+                product[i] += jacobian[i * n + k] * vector[k];
+    ok = ok && write_vector(told, product, answer, error);
+    free(work);
+    return ok;
+}
+
+static bool gradient(const struct request *r, json_t **answer, struct served_error *error)
+{
+    return differentiate(r, "sens", true, answer, error);
+}
+
+static bool apply_jacobian(const struct request *r, json_t **answer, struct served_error *error)
+{
+    return differentiate(r, "vec", false, answer, error);
 }
 
 static const struct {
@@ -206,7 +290,7 @@ static const struct {
     bool (*answer)(const struct request *request, json_t **answer, struct served_error *error);
 } CALLS[] = {{"/Evaluate", evaluate},         {"/ModelInfo", model_info},
              {"/InputSizes", input_sizes},    {"/OutputSizes", output_sizes},
-             {"/Gradient", no_derivative},    {"/ApplyJacobian", no_derivative},
+             {"/Gradient", gradient},         {"/ApplyJacobian", apply_jacobian},
              {"/ApplyHessian", no_derivative}};
 enum { N_CALLS = sizeof CALLS / sizeof *CALLS };
 

@@ -39,6 +39,9 @@ struct served {
     /* Fills output, one vector after the other. */
     bool (*evaluate)(const struct served *model, const double *input, const json_t *config,
                      double *output, struct served_error *error);
+    /* Fills jacobian [numbers of output k][n]; NULL: the model has no derivatives. */
+    bool (*differentiate)(const struct served *model, const double *input, const json_t *config,
+                          size_t k, double *jacobian, struct served_error *error);
     void *user_data;
 };
 
