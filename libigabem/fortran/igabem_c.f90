@@ -555,6 +555,15 @@ module igabem_c
       integer(c_size_t), value :: columns
       type(c_ptr), intent(inout) :: grid
     end function
+    integer(c_int) function nurbs_patches_design_parameters(patches, index, axis, n, &
+        parameters) bind(c)
+      import
+      type(c_ptr), value :: patches
+      integer(c_size_t), value :: index
+      integer(c_int), value :: axis
+      integer(c_size_t), value :: n
+      real(c_double), intent(inout), optional :: parameters(*)
+    end function
     integer(c_int) function nurbs_hull_rebuild(parent, grid, hull) bind(c)
       import
       type(c_ptr), value :: parent

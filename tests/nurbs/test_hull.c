@@ -105,6 +105,25 @@ static void whole_body_counts_each_side_once(void)
     nurbs_patches_free(both);
 }
 
+/* The points of the grid are those of the surface at its parameters. */
+static void check_parameters(const nurbs_patches *patches, const nurbs_grid *grid)
+{
+    size_t rows = nurbs_grid_rows(grid), columns = nurbs_grid_columns(grid);
+    double u[41], v[17], point[3];
+    CU_ASSERT_FATAL(rows == 41 && columns == 17);
+    CU_ASSERT_EQUAL(nurbs_patches_design_parameters(patches, 0, 0, rows, u), NURBS_OK);
+    CU_ASSERT_EQUAL(nurbs_patches_design_parameters(patches, 0, 1, columns, v), NURBS_OK);
+    for (size_t k = 0; k < rows * columns; k++) {
+        const double uv[2] = {u[k / columns], v[k % columns]};
+        nurbs_surface_eval(nurbs_patches_get(patches, 0), 0, 1, uv, point);
+        for (size_t a = 0; a < 3; a++)
+            CHECK_CLOSE(point[a], nurbs_grid_points(grid)[3 * k + a], 1e-15);
+    }
+    CU_ASSERT_EQUAL(nurbs_patches_design_parameters(patches, 0, 2, 5, u), NURBS_ERROR_ARGUMENT);
+    CU_ASSERT_EQUAL(nurbs_patches_design_parameters(patches, 0, 1, 1, u), NURBS_ERROR_ARGUMENT);
+    CU_ASSERT_EQUAL(nurbs_patches_design_parameters(patches, 1, 0, 5, u), NURBS_ERROR_ARGUMENT);
+}
+
 static void rebuilds_from_its_design_grid(void)
 {
     nurbs_patches *patches = raised_wigley(0.1);
@@ -118,6 +137,7 @@ static void rebuilds_from_its_design_grid(void)
     CU_ASSERT_EQUAL(nurbs_patches_design_grid(patches, 1, 0, 0, &grid), NURBS_ERROR_ARGUMENT);
     CU_ASSERT_EQUAL_FATAL(nurbs_hull_design_grid(parent, 41, 17, &grid), NURBS_OK);
     CU_ASSERT_EQUAL(nurbs_grid_rows(grid), 41);
+    check_parameters(nurbs_hull_full(parent), grid);
     CU_ASSERT_EQUAL_FATAL(nurbs_hull_rebuild(parent, grid, &hull), NURBS_OK);
     double volume = nurbs_hull_hydrostatics(hull)->volume;
     CHECK_CLOSE(volume, volume_below(0.1), 1e-4 * volume);

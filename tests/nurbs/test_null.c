@@ -43,6 +43,7 @@ static void calls_that_can_fail(void)
     CHECK_NULL(nurbs_hull_create_surfaces(2, NULL, NULL, NULL));
     CHECK_NULL(nurbs_hull_design_grid(NULL, 2, 2, NULL));
     CHECK_NULL(nurbs_patches_design_grid(NULL, 2, 2, 2, NULL));
+    CHECK_NULL(nurbs_patches_design_parameters(NULL, 0, 0, 2, NULL));
     CHECK_NULL(nurbs_hull_rebuild(NULL, NULL, NULL));
     CHECK_NULL(nurbs_hull_share_space(NULL, NULL, 2, NULL));
     CHECK_NULL(nurbs_hull_moves(NULL, NULL, NULL));

@@ -89,6 +89,12 @@ NURBS_API nurbs_status nurbs_hull_design_grid(const nurbs_hull *hull, size_t row
 NURBS_API nurbs_status nurbs_patches_design_grid(const nurbs_patches *patches, size_t index,
                                                  size_t rows, size_t columns, nurbs_grid **grid);
 
+/** Fills the n parameters of the lines of that grid: of its n rows, along axis 0 (u), or of its n
+ * columns, along axis 1 (v). They increase. Errors: NURBS_ERROR_ARGUMENT: no such patch or axis, n
+ * below 2; NURBS_ERROR_GEOMETRY: that many lines cannot be laid over the knots. */
+NURBS_API nurbs_status nurbs_patches_design_parameters(const nurbs_patches *patches, size_t index,
+                                                       int axis, size_t n, double *parameters);
+
 /** Creates the hull through the points of a grid: skinned (nurbs_skin() with its defaults), cut at
  * z = 0 within a tenth of the tolerance, and lightened by knot removal within the tolerance, edges
  * kept: 1e-4 of the parent's length or what the parent's options.simplify says. Length and options

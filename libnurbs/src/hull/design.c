@@ -66,6 +66,32 @@ static nurbs_status choose_parameters(const nurbs_patches *patches, size_t index
     return NURBS_OK;
 }
 
+static const nurbs_surface *find_patch(const nurbs_patches *patches, size_t index,
+                                       nurbs_status *status)
+{
+    const nurbs_surface *surface = nurbs_patches_get(patches, index);
+    *status = surface
+                  ? NURBS_OK
+                  : nurbs_fail(NURBS_ERROR_ARGUMENT, "no patch %zu, there are %zu (counted from 0)",
+                               index, nurbs_patches_count(patches));
+    return surface;
+}
+
+nurbs_status nurbs_patches_design_parameters(const nurbs_patches *patches, size_t index, int axis,
+                                             size_t n, double *parameters)
+{
+    nurbs_status status;
+    if (!patches || !parameters)
+        return nurbs_fail(NURBS_ERROR_ARGUMENT, "patches or parameters is NULL");
+    if (!find_patch(patches, index, &status))
+        return status;
+    if (axis < 0 || axis > 1 || n < 2)
+        return nurbs_fail(NURBS_ERROR_ARGUMENT,
+                          "%zu grid lines in direction %d, expected at least 2 in direction 0 or 1",
+                          n, axis);
+    return choose_parameters(patches, index, axis, n, parameters);
+}
+
 nurbs_status nurbs_patches_design_grid(const nurbs_patches *patches, size_t index, size_t rows,
                                        size_t columns, nurbs_grid **grid)
 {
@@ -74,10 +100,10 @@ nurbs_status nurbs_patches_design_grid(const nurbs_patches *patches, size_t inde
     if (!patches || !grid)
         return nurbs_fail(NURBS_ERROR_ARGUMENT, "patches or grid is NULL");
     *grid = NULL;
-    const nurbs_surface *surface = nurbs_patches_get(patches, index);
+    nurbs_status status;
+    const nurbs_surface *surface = find_patch(patches, index, &status);
     if (!surface)
-        return nurbs_fail(NURBS_ERROR_ARGUMENT, "no patch %zu, there are %zu (counted from 0)",
-                          index, nurbs_patches_count(patches));
+        return status;
     for (int a = 0; a < 2; a++) {
         if (n[a] == 0)
             n[a] = nurbs_patches_parameters(patches, index, a, &kept);
@@ -90,7 +116,7 @@ nurbs_status nurbs_patches_design_grid(const nurbs_patches *patches, size_t inde
     double *u = malloc((n[0] + n[1]) * sizeof *u);
     if (!u)
         return nurbs_fail(NURBS_ERROR_MEMORY, "no memory for %zu parameters", n[0] + n[1]);
-    nurbs_status status = choose_parameters(patches, index, 0, n[0], u);
+    status = choose_parameters(patches, index, 0, n[0], u);
     if (!status)
         status = choose_parameters(patches, index, 1, n[1], u + n[0]);
     if (!status)
