@@ -25,14 +25,17 @@ typedef struct part {
 struct galv_limits {
     const galv_model *model;
     size_t sections, girth;
-    part breadths;  /* y of every point */
-    part waterline; /* x, y above, x, y below for each crossing */
-    double *share;  /* of each crossing */
-    bool *counts;   /* of the piece that ends there: not in the parent's stem */
+    bool moves_z, bends; /* the volume is not linear: points move along x or z */
+    part breadths;       /* y of every point */
+    part waterline;      /* x, y above, x, y below for each crossing */
+    double *share;       /* of each crossing */
+    size_t *section;
+    bool *counts; /* of the piece that ends there: not in the parent's stem */
     size_t crossings;
-    double entrance;  /* of the parent */
-    double volume;    /* of the parent's grid, one side */
-    double *gradient; /* of the volume ratio, or NULL */
+    double entrance;    /* of the parent */
+    double volume;      /* of the parent's grid, one side */
+    double *gradient;   /* of the volume ratio, or NULL */
+    double *correction; /* the same less that of the grid's own volume, where that bends; or NULL */
 };
 
 static galv_status part_create(const galv_model *model, size_t n, part *p)
@@ -85,13 +88,16 @@ static galv_status set_waterline(galv_limits *l, double most)
         return status;
     l->crossings = c.n;
     l->share = malloc((c.n + 1) * sizeof *l->share);
+    l->section = malloc((c.n + 1) * sizeof *l->section);
     l->counts = calloc(c.n + 1, sizeof *l->counts);
-    status = l->share && l->counts ? part_create(model, 4 * c.n, &l->waterline)
-                                   : galv_fail(GALV_ERROR_MEMORY, "waterline of %zu points", c.n);
+    status = l->share && l->section && l->counts
+                 ? part_create(model, 4 * c.n, &l->waterline)
+                 : galv_fail(GALV_ERROR_MEMORY, "waterline of %zu points", c.n);
     double at[2][2];
     for (size_t i = 0; i < c.n && !status; i++) {
         size_t above = 3 * c.above[i], below = 3 * c.below[i];
         l->share[i] = c.share[i];
+        l->section[i] = c.above[i] / l->girth;
         for (size_t k = 0; k < 2; k++) {
             part_set(&l->waterline, model, 4 * i + k, above + k);
             part_set(&l->waterline, model, 4 * i + 2 + k, below + k);
@@ -104,6 +110,18 @@ static galv_status set_waterline(galv_limits *l, double most)
     }
     galv_crossings_free(&c);
     return status;
+}
+
+static bool moves_along(const galv_model *model, size_t axis)
+{
+    for (size_t k = axis; k < 3 * model->points; k += 3) {
+        if (model->mean[k] != 0)
+            return true;
+        for (size_t m = 0; m < model->modes; m++)
+            if (model->vectors[m * model->coordinates + k] != 0)
+                return true;
+    }
+    return false;
 }
 
 galv_status galv_limits_create(const galv_model *model, size_t sections, size_t girth, double most,
@@ -124,6 +142,8 @@ galv_status galv_limits_create(const galv_model *model, size_t sections, size_t 
     l->model = model;
     l->sections = sections;
     l->girth = girth;
+    l->moves_z = moves_along(model, 2);
+    l->bends = l->moves_z || moves_along(model, 0);
     galv_status status = galv_grid_volume(sections, girth, model->parent, &l->volume);
     if (!status && l->volume == 0)
         status = galv_fail(GALV_ERROR_GEOMETRY, "the grid has no volume below z = 0");
@@ -146,8 +166,10 @@ void galv_limits_free(galv_limits *limits)
     part_free(&limits->breadths);
     part_free(&limits->waterline);
     free(limits->share);
+    free(limits->section);
     free(limits->counts);
     free(limits->gradient);
+    free(limits->correction);
     free(limits);
 }
 
@@ -184,22 +206,6 @@ galv_status galv_limits_breadth(const galv_limits *limits, const double *u, doub
     return GALV_OK;
 }
 
-galv_status galv_limits_entrance(const galv_limits *limits, const double *u, double *ratio)
-{
-    galv_status status = check(limits, u);
-    if (status || !ratio)
-        return status ? status : galv_fail(GALV_ERROR_ARGUMENT, "the result must be given");
-    double largest = 0, corner[4], at[2][2];
-    for (size_t i = 0; i < limits->crossings; i++) {
-        part_move(&limits->waterline, limits->model->modes, u, 4 * i, 4, corner);
-        galv_crossing_at(limits->share[i], corner, corner + 2, at[i % 2]);
-        if (limits->counts[i])
-            largest = fmax(largest, galv_piece_slope(at[(i + 1) % 2], at[i % 2]));
-    }
-    *ratio = limits->entrance > 0 ? largest / limits->entrance : 1;
-    return GALV_OK;
-}
-
 /* n points of the moved grid from `first` on, as galv_displace() has them. */
 static void move_points(const galv_model *model, const double *u, size_t first, size_t n,
                         double *xyz)
@@ -207,6 +213,44 @@ static void move_points(const galv_model *model, const double *u, size_t first, 
     galv_model_displacement(model, u, 3 * first, 3 * n, xyz);
     for (size_t k = 0; k < 3 * n; k++)
         xyz[k] += model->parent[3 * first + k];
+}
+
+/* x and y where crossing i of the parent's waterline is now. Points that keep their z keep their
+ * share; else the section may cross the water between others: NAN where it does not. */
+static void find_crossing(const galv_limits *limits, const double *u, size_t i, double xy[2])
+{
+    double corner[4], point[2][3];
+    if (!limits->moves_z) {
+        part_move(&limits->waterline, limits->model->modes, u, 4 * i, 4, corner);
+        galv_crossing_at(limits->share[i], corner, corner + 2, xy);
+        return;
+    }
+    size_t first = limits->section[i] * limits->girth;
+    xy[0] = xy[1] = NAN;
+    move_points(limits->model, u, first, 1, point[0]);
+    for (size_t j = 1; j < limits->girth; j++) {
+        const double *p = point[(j - 1) % 2], *q = point[j % 2];
+        move_points(limits->model, u, first + j, 1, point[j % 2]);
+        if ((p[2] >= 0) == (q[2] >= 0))
+            continue;
+        galv_crossing_at(p[2] / (p[2] - q[2]), p, q, xy);
+        return;
+    }
+}
+
+galv_status galv_limits_entrance(const galv_limits *limits, const double *u, double *ratio)
+{
+    galv_status status = check(limits, u);
+    if (status || !ratio)
+        return status ? status : galv_fail(GALV_ERROR_ARGUMENT, "the result must be given");
+    double largest = 0, at[2][2];
+    for (size_t i = 0; i < limits->crossings; i++) {
+        find_crossing(limits, u, i, at[i % 2]);
+        if (limits->counts[i]) /* a piece that ends in the air has the slope 0 */
+            largest = fmax(largest, galv_piece_slope(at[(i + 1) % 2], at[i % 2]));
+    }
+    *ratio = limits->entrance > 0 ? largest / limits->entrance : 1;
+    return GALV_OK;
 }
 
 static double moved_volume(const galv_limits *limits, const double *u)
@@ -229,28 +273,12 @@ galv_status galv_limits_volume(const galv_limits *limits, const double *u, doubl
     galv_status status = check(limits, u);
     if (status || !ratio)
         return status ? status : galv_fail(GALV_ERROR_ARGUMENT, "the result must be given");
-    if (!limits->gradient) {
-        *ratio = moved_volume(limits, u) / limits->volume;
-        return GALV_OK;
-    }
-    *ratio = 1;
-    for (size_t m = 0; m < limits->model->modes; m++)
-        *ratio += limits->gradient[m] * u[m];
+    bool linear = limits->gradient && !limits->correction;
+    const double *slope = linear ? limits->gradient : limits->correction;
+    *ratio = linear ? 1 : moved_volume(limits, u) / limits->volume;
+    for (size_t m = 0; slope && m < limits->model->modes; m++)
+        *ratio += slope[m] * u[m];
     return GALV_OK;
-}
-
-static bool moves_only_y(const galv_model *model)
-{
-    for (size_t k = 0; k < 3 * model->points; k++) {
-        if (k % 3 == 1)
-            continue;
-        if (model->mean[k] != 0)
-            return false;
-        for (size_t m = 0; m < model->modes; m++)
-            if (model->vectors[m * model->coordinates + k] != 0)
-                return false;
-    }
-    return true;
 }
 
 /* Volumes of a latent point's hull and of its grid. */
@@ -271,10 +299,14 @@ static volumes measure_point(const measure *m)
     return (volumes){m->volume(m->user_data, m->moved), moved_volume(m->limits, m->u)};
 }
 
+static double step_of(const galv_model *model, size_t mode)
+{
+    return step_share * (model->upper[mode] - model->lower[mode]) / 2;
+}
+
 static double difference(const measure *m, const volumes *parent, size_t mode)
 {
-    const galv_model *model = m->limits->model;
-    double step = step_share * (model->upper[mode] - model->lower[mode]) / 2;
+    double step = step_of(m->limits->model, mode);
     volumes at[2];
     for (int side = 0; side < 2; side++) {
         m->u[mode] = side ? step : -step;
@@ -290,8 +322,6 @@ galv_status galv_limits_linearise(galv_limits *limits, galv_built_volume volume,
     if (!limits || !volume)
         return galv_fail(GALV_ERROR_ARGUMENT, "limits and volume must be given");
     const galv_model *model = limits->model;
-    if (!moves_only_y(model))
-        return GALV_OK;
     size_t m = model->modes;
     double *gradient = malloc(m * sizeof *gradient);
     measure work = {.limits = limits,
@@ -319,6 +349,29 @@ const double *galv_limits_gradient(const galv_limits *limits)
     return limits ? limits->gradient : NULL;
 }
 
+/* By differences over the same steps as those of the built hulls; NULL: no memory. */
+static double *find_correction(const galv_limits *limits, const double *gradient)
+{
+    const galv_model *model = limits->model;
+    size_t modes = model->modes;
+    double *u = calloc(modes, sizeof *u), *correction = malloc(modes * sizeof *correction);
+    for (size_t m = 0; u && correction && m < modes; m++) {
+        double step = step_of(model, m), side[2];
+        for (int i = 0; i < 2; i++) {
+            u[m] = i ? step : -step;
+            side[i] = moved_volume(limits, u) / limits->volume;
+        }
+        u[m] = 0;
+        correction[m] = gradient[m] - (side[1] - side[0]) / (2 * step);
+    }
+    if (!u) {
+        free(correction);
+        correction = NULL;
+    }
+    free(u);
+    return correction;
+}
+
 galv_status galv_limits_set_gradient(galv_limits *limits, const double *gradient)
 {
     if (!limits || !gradient)
@@ -328,11 +381,16 @@ galv_status galv_limits_set_gradient(galv_limits *limits, const double *gradient
         if (!isfinite(gradient[k]))
             return galv_fail(GALV_ERROR_ARGUMENT, "gradient of the volume: component %zu is %g", k,
                              gradient[k]);
-    double *copy = malloc(m * sizeof *copy);
-    if (!copy)
+    double *copy = malloc(m * sizeof *copy), *correction = NULL;
+    if (copy)
+        memcpy(copy, gradient, m * sizeof *copy);
+    if (!copy || (limits->bends && !(correction = find_correction(limits, gradient)))) {
+        free(copy);
         return galv_fail(GALV_ERROR_MEMORY, "gradient of %zu modes", m);
-    memcpy(copy, gradient, m * sizeof *copy);
+    }
     free(limits->gradient);
+    free(limits->correction);
     limits->gradient = copy;
+    limits->correction = correction;
     return GALV_OK;
 }

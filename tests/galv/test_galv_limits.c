@@ -247,13 +247,29 @@ static void test_volume_gradient(void)
     galv_model_free(model);
 }
 
-/* Points that move along x too: no gradient, and the moved grid's volume. 1.1 times the length and
- * the breadth. */
-static void test_volume_of_grid(void)
+/* The volume by a closed form, as a builder of exact hulls has it. */
+struct closed_form {
+    double (*volume)(const double *moved);
+};
+
+static double exact(void *user_data, const double *moved)
+{
+    return ((struct closed_form *)user_data)->volume(moved);
+}
+
+/* Points that move along x too: 1.1 times the length and the breadth are 1.21 times the volume,
+ * which is no linear function. */
+static double stretched(const double *moved)
+{
+    double length = moved[3 * (N - 1)] - moved[0];
+    return 4.0 / 9 * BEAM * DRAFT * length * length;
+}
+
+static void test_volume_of_longer_hulls(void)
 {
     static double field[3 * N], points[3 * N];
     double u[1];
-    struct volume_call call = {.points = points};
+    struct closed_form form = {stretched};
     galv_limits *limits = NULL;
     wigley(ROWS, COLUMNS, points);
     for (size_t k = 0; k < 3 * N; k += 3) {
@@ -262,11 +278,56 @@ static void test_volume_of_grid(void)
     }
     galv_model *model = model_of(1, field);
     CU_ASSERT_EQUAL_FATAL(galv_limits_create(model, ROWS, COLUMNS, 1, &limits), GALV_OK);
-    CU_ASSERT_EQUAL(galv_limits_linearise(limits, built, &call), GALV_OK);
-    CU_ASSERT_EQUAL(call.calls, 0);
-    CU_ASSERT_PTR_NULL(galv_limits_gradient(limits));
-    locate(model, 1, field, (double[]){0.1}, u);
-    CHECK_CLOSE(ratio_of(galv_limits_volume, limits, u), 1.21, 1e-12);
+    for (int known = 0; known < 2; known++) {
+        locate(model, 1, field, (double[]){0.1}, u);
+        CHECK_CLOSE(ratio_of(galv_limits_volume, limits, u), 1.21, 1e-12);
+        CU_ASSERT_EQUAL(galv_limits_linearise(limits, exact, &form), GALV_OK);
+        CU_ASSERT_PTR_NOT_NULL(galv_limits_gradient(limits));
+    }
+    galv_limits_free(limits);
+    galv_model_free(model);
+}
+
+/* A hull that rises by d out of the water: the area of its sections is cut off at the height d. */
+static double risen(const double *moved)
+{
+    double d = moved[2] - TOP, t = DRAFT - d;
+    double area =
+        d > 0 ? t - (pow(DRAFT, 3) - d * d * d) / (3 * DRAFT * DRAFT) : 2.0 / 3 * DRAFT - d;
+    return 2.0 / 3 * BEAM * area;
+}
+
+/* Its volume, better than the grid has it, and the slope of its waterline, which runs between other
+ * points than that of the parent. */
+static void test_draft(void)
+{
+    static double field[3 * N], points[3 * N];
+    const double slope = 2 * BEAM * (1 - 1.0 / (ROWS - 1));
+    double u[1], raw[2];
+    struct closed_form form = {risen};
+    galv_limits *limits = NULL;
+    wigley(ROWS, COLUMNS, points);
+    for (size_t k = 2; k < 3 * N; k += 3)
+        field[k] = 0.08; /* by at most 0.016 m up and down: the deck stays out of the water */
+    galv_model *model = model_of(1, field);
+    CU_ASSERT_EQUAL_FATAL(galv_limits_create(model, ROWS, COLUMNS, 1, &limits), GALV_OK);
+    for (int known = 0; known < 2; known++) {
+        for (int side = 0; side < 2; side++) {
+            double d = side ? 0.012 : -0.012;
+            const double x[1] = {d / 0.08}, moved[3] = {0, 0, TOP + d};
+            locate(model, 1, field, x, u);
+            double expected = risen(moved) / risen((double[]){0, 0, TOP});
+            double error = fabs(ratio_of(galv_limits_volume, limits, u) / expected - 1);
+            CU_ASSERT_TRUE(error < 2e-3);
+            if (known)
+                CU_ASSERT_TRUE(error < raw[side]);
+            raw[side] = error;
+            double share = d > 0 ? 1 - d * d / (DRAFT * DRAFT) : 1, s = share * slope;
+            CHECK_CLOSE(ratio_of(galv_limits_entrance, limits, u),
+                        share * sqrt((1 + slope * slope) / (1 + s * s)), 1e-3);
+        }
+        CU_ASSERT_EQUAL(galv_limits_linearise(limits, exact, &form), GALV_OK);
+    }
     galv_limits_free(limits);
     galv_model_free(model);
 }
@@ -301,7 +362,8 @@ static const struct check_case cases[] = {
     {"half breadths", test_breadths},
     {"entrance of latent points", test_entrance},
     {"gradient of the volume", test_volume_gradient},
-    {"volume of the moved grid", test_volume_of_grid},
+    {"volume of longer hulls", test_volume_of_longer_hulls},
+    {"volume and waterline at other drafts", test_draft},
     {"refusals", test_refusals},
 };
 

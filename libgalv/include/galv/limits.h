@@ -64,11 +64,14 @@ GALV_API void galv_limits_free(galv_limits *limits);
 GALV_API galv_status galv_limits_breadth(const galv_limits *limits, const double *u, double *least,
                                          double *share);
 
-/** Entrance of the moved waterline over that of the parent, outside the stem of the parent. */
+/** Entrance of the moved waterline over that of the parent, outside the stem of the parent: between
+ * those sections that cross z = 0 in the parent and still do. */
 GALV_API galv_status galv_limits_entrance(const galv_limits *limits, const double *u,
                                           double *ratio);
 
-/** Volume over that of the parent: 1 + g u with a gradient, else of the moved grid. */
+/** Volume over that of the parent. Where points move along y alone: 1 + g u with a gradient g, else
+ * that of the moved grid. Where they move along x or z too: that of the moved grid, and with a
+ * gradient what is lacking to g of the grid's own slope at the parent, times u. */
 GALV_API galv_status galv_limits_volume(const galv_limits *limits, const double *u, double *ratio);
 
 /** The volume, m^3, of the hull built on moved points (3 per point); NaN when it cannot be built.
@@ -76,13 +79,12 @@ GALV_API galv_status galv_limits_volume(const galv_limits *limits, const double 
 typedef double (*galv_built_volume)(void *user_data, const double *moved);
 
 /**
- * Finds the gradient of the volume ratio where there is one. Points that move along y alone leave
- * the projection of the hull on the centre plane as it is: the volume is then linear in u but for
- * how the hull is built on the points. Central differences over a quarter of the latent box, of the
- * hulls as they are built; of the grid where one cannot be built.
+ * Finds the gradient of the volume ratio. Points that move along y alone leave the projection of
+ * the hull on the centre plane as it is: the volume is then linear in u but for how the hull is
+ * built on the points. Central differences over a quarter of the latent box, of the hulls as they
+ * are built; of the grid where one cannot be built.
  * @param volume     called 2 m + 1 times
  * @param user_data  borrowed for the call
- * Without a gradient, because points move along x or z, nothing is called and all stays as it is.
  */
 GALV_API galv_status galv_limits_linearise(galv_limits *limits, galv_built_volume volume,
                                            void *user_data);
