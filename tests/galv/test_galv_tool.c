@@ -319,6 +319,92 @@ static void test_moments_and_lattice(void)
     json_decref(root);
 }
 
+/* The control points of the Wigley hull, 3 x 3 of degree 2, are moved by Bernstein polynomials. */
+static void test_control_points(void)
+{
+    static const double x[5] = {0.01, -0.004, 0.003, 0.02, -0.006};
+    enum { ROWS = 7, COLUMNS = 4 };
+    scratch_write("net.yaml", "bounds: [-0.02, 0.02]\n"
+                              "control_points:\n"
+                              "  moved:\n"
+                              "    - {first: [1, 0], last: [1, 1], directions: [y, z]}\n"
+                              "    - {first: [0, 0], last: [2, 1], directions: [x], "
+                              "together: true, bounds: [-0.1, 0.1]}\n");
+    json_t *root = run_json("reduce --hull " EXAMPLES_DIR "/hulls/wigley.json --grid 7x4 "
+                            "--shape net.yaml --random 50 -o net.h5 --json");
+    CU_ASSERT_EQUAL(number(root, "parameters"), 5);
+    CU_ASSERT_STRING_EQUAL(json_string_value(json_object_get(root, "method")), "factored");
+    json_decref(root);
+    root = run_json("info net.h5 --json");
+    CU_ASSERT_STRING_EQUAL(json_string_value(json_object_get(root, "shape")), "control points");
+    json_decref(root);
+    expect("reconstruct net.h5 --parameters 0.01,-0.004,0.003,0.02,-0.006 -o moved.csv", 0, NULL);
+    FILE *stream = fopen(scratch("moved.csv"), "r");
+    CU_ASSERT_PTR_NOT_NULL_FATAL(stream);
+    CU_ASSERT_EQUAL(fscanf(stream, "i,j,x,y,z"), 0);
+    for (int r = 0; r < ROWS * COLUMNS; r++) {
+        double u = r / COLUMNS / (ROWS - 1.0), v = r % COLUMNS / (COLUMNS - 1.0), p[3];
+        double middle = 2 * u * (1 - u), top = (1 - v) * (1 - v), below = 2 * v * (1 - v);
+        CU_ASSERT_EQUAL_FATAL(fscanf(stream, "%*d,%*d,%lf,%lf,%lf", &p[0], &p[1], &p[2]), 3);
+        CHECK_CLOSE(p[0], u - 0.5 + x[4] * (top + below), 1e-15);
+        CHECK_CLOSE(p[1], 0.2 * u * (1 - u) * (1 - v * v) + middle * (x[0] * top + x[2] * below),
+                    1e-15);
+        CHECK_CLOSE(p[2], -0.0625 * v + middle * (x[1] * top + x[3] * below), 1e-15);
+    }
+    fclose(stream);
+    /* A spline of more points over the hull holds what the fewer ones can do. */
+    scratch_write("fine.yaml", "bounds: [-0.02, 0.02]\n"
+                               "control_points:\n"
+                               "  count: [6, 5]\n"
+                               "  moved:\n"
+                               "    - {first: [0, 0], last: [5, 4], directions: [x, y, z]}\n");
+    root = run_json("reduce --hull " EXAMPLES_DIR "/hulls/wigley.json --grid 21x13 "
+                    "--shape fine.yaml --random 200 --modes 90 -o fine.h5 --json");
+    CU_ASSERT_EQUAL(number(root, "parameters"), 90);
+    json_decref(root);
+    json_decref(run_json("reduce --hull " EXAMPLES_DIR "/hulls/wigley.json --grid 21x13 "
+                         "--shape net.yaml --random 50 -o net.h5 --json"));
+    expect("reconstruct net.h5 --parameters 0.01,-0.004,0.003,0.02,-0.006 -o moved.csv", 0, NULL);
+    root = run_json("project fine.h5 --hull moved.csv --json");
+    CHECK_CLOSE(number(json_array_get(json_object_get(root, "rows"), 0), "distance"), 0, 1e-12);
+    json_decref(root);
+    /* and not the other way round */
+    expect("reconstruct fine.h5 --parameters 0.02 -o moved.csv", 0, NULL);
+    root = run_json("project net.h5 --hull moved.csv --json");
+    CU_ASSERT_TRUE(number(json_array_get(json_object_get(root, "rows"), 0), "distance") > 1e-4);
+    json_decref(root);
+}
+
+static void test_bad_control_points(void)
+{
+    static const struct {
+        const char *text, *words;
+    } bad[] = {
+        {"  moved:\n    - {first: [0, 0], last: [3, 0]}\n",
+         "bad.yaml:3: control_points.moved in entry 1 along u"},
+        {"  moved:\n    - {first: [0, 2], last: [0, 1]}\n", "along v"},
+        {"  moved:\n    - {last: [0, 1]}\n", "first is missing"},
+        {"  degree: [2, 2]\n  moved:\n    - {first: [0, 0], last: [1, 1]}\n", "without count"},
+        {"  count: [4, 4]\n  degree: [4, 2]\n  moved:\n    - {first: [0, 0], last: [1, 1]}\n",
+         "4 of 4 points"},
+        {"  count: [4, 4]\n", "no list 'moved'"},
+        {"  moved:\n    - {first: [0, 0], last: [1, 1], directions: [w]}\n", "'w'"},
+        {"  moved:\n    - {first: [0, 0], last: [1, 1], bounds: [1, 0]}\n", "1 and 0"},
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        char text[300];
+        snprintf(text, sizeof text, "bounds: [0, 1]\ncontrol_points:\n%s", bad[i].text);
+        scratch_write("bad.yaml", text);
+        expect("reduce --hull " EXAMPLES_DIR "/hulls/wigley.json --grid 7x4 --shape bad.yaml "
+               "--random 5",
+               1, bad[i].words);
+    }
+    scratch_write("bad.yaml", "control_points:\n  moved:\n    - {first: [0, 0], last: [1, 1]}\n");
+    expect("reduce --hull " EXAMPLES_DIR
+           "/hulls/wigley.json --grid 7x4 --shape bad.yaml --random 5",
+           1, "no bounds in entry 1");
+}
+
 static void expect_svg(const char *name, const char *holds)
 {
     FILE *stream = fopen(scratch(name), "r");
@@ -396,7 +482,7 @@ static void test_bad_shapes_name_the_field(void)
     static const struct {
         const char *text, *words;
     } bad[] = {
-        {"bounds: [0, 1]\n", "functions, orders and lattice"},
+        {"bounds: [0, 1]\n", "functions, orders, lattice and control_points"},
         {"bounds: [0, 1]\norders: [1, 1, 1]\nfunctions:\n  - {order: [1, 1, 1]}\n",
          "2 of functions"},
         {"bounds: [0, 1]\norders: [1, 0, 1]\n", "bad.yaml:2"},
@@ -422,6 +508,8 @@ static void test_bad_shapes_name_the_field(void)
         {"bounds: [0, 1]\nlattice: {count: [3, 3, 3], degree: [2, 5, 2], first: [0, 0, 0], "
          "last: [2, 2, 2]}\n",
          "along y"},
+        {"bounds: [0, 1]\ncontrol_points:\n  moved:\n    - {first: [0, 0], last: [0, 0]}\n",
+         "bad.yaml:2: control_points are those of a NURBS surface"},
     };
     write_inputs();
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
@@ -584,6 +672,8 @@ static const struct check_case cases[] = {
     {"there and back", test_there_and_back},
     {"a model grows", test_extend},
     {"moments and lattices", test_moments_and_lattice},
+    {"control points of a NURBS hull", test_control_points},
+    {"control points that there are not", test_bad_control_points},
     {"drawings", test_drawings},
     {"usage", test_usage},
     {"bad shapes name the field", test_bad_shapes_name_the_field},

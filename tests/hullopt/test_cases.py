@@ -58,6 +58,23 @@ def series60():
     assert told["reduction_percent"] > 40 and told["failed_designs"] == 0, told["reduction_percent"]
 
 
+def wigley_control_points():
+    told = run("wigley_control_points", "--iterations", "2")
+    assert told["modes"] == 18 and told["evaluations"] == 2 and told["failed_designs"] == 0
+    original = f"{examples}/hulls/wigley.json"
+    before, after = hydrostatics(original), hydrostatics("run/best.json")
+    within(after["volume"], before["volume"], 0.021, "displacement")
+    within(after["beam"], before["beam"], 0.11, "beam")
+    # Stern and stem go by at most 0.02 m, the keel by 0.006 m; not by nothing.
+    ends = [abs(after[end] - before[end]) for end in ("x_aft", "x_fore")] + [abs(after["draft"] - before["draft"])]
+    assert all(1e-4 < moved < most for moved, most in zip(ends, (0.0201, 0.0201, 0.0061))), ends
+    for formulation in ("michell", "neumann-kelvin"):
+        options = ("--fr", "0.316", "--length", "1", "--formulation", formulation)
+        assert cw("run/best.igs", *options) < 0.7 * cw(original, *options), formulation
+    parameters = subprocess.run(["hullopt", "forecast", "wigley_control_points.yaml", "--json"], capture_output=True, text=True)
+    assert parameters.returncode == 0 and json.loads(parameters.stdout)["solves"] >= 18, parameters
+
+
 def dtmb5415_l2sea():
     told = run("dtmb5415_l2sea", "--iterations", "1")
     assert told["modes"] == 14
@@ -135,4 +152,4 @@ def wigley_pareto():
     assert again.returncode == 2 and "--out" in again.stderr
 
 
-{f.__name__: f for f in (series60, wigley_pareto, dtmb5415_l2sea, own_iges, external_solver)}[case]()
+{f.__name__: f for f in (series60, wigley_control_points, wigley_pareto, dtmb5415_l2sea, own_iges, external_solver)}[case]()

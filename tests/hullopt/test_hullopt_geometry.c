@@ -5,7 +5,6 @@
 #include "core/jobs.h"
 #include "core/objective.h"
 #include "core/problem.h"
-#include "shape_yaml.h"
 
 #include <signal.h>
 #include <stdlib.h>
@@ -51,9 +50,7 @@ static void test_parent(void)
 static void test_latent_space(void)
 {
     const struct core_watch nobody = {0};
-    const nurbs_grid *grid = problem.grid;
-    galv_shape *shape = shape_yaml_read(
-        config.shape, nurbs_grid_rows(grid) * nurbs_grid_columns(grid), nurbs_grid_points(grid));
+    galv_shape *shape = problem_shape(&problem);
     CU_ASSERT_PTR_NOT_NULL_FATAL(shape);
     say_why(problem_reduce(&problem, shape, &nobody));
     CU_ASSERT_TRUE(galv_model_retained(problem.model) >= config.variance);

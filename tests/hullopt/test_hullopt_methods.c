@@ -7,7 +7,6 @@
 #include "core/forecast.h"
 #include "core/optimise.h"
 #include "core/search.h"
-#include "shape_yaml.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -60,10 +59,7 @@ static int session(int left)
         const struct core_watch watch = {.show = left >= 0 ? die : NULL, .user_data = &deadline};
         if (!config_read(path, NULL, &config) || !problem_read(&config, &problem))
             _exit(2);
-        const nurbs_grid *grid = problem.grid;
-        galv_shape *shape =
-            shape_yaml_read(config.shape, nurbs_grid_rows(grid) * nurbs_grid_columns(grid),
-                            nurbs_grid_points(grid));
+        galv_shape *shape = problem_shape(&problem);
         const struct core_watch nobody = {.show = NULL};
         bool ok = access(store, F_OK) == 0 ? optimise_resume(&problem, store)
                                            : optimise_begin(&problem, shape, store, &nobody);
@@ -197,10 +193,7 @@ static struct forecast forecast_alone(void)
         struct problem problem;
         if (!config_read(path, NULL, &config) || !problem_read(&config, &problem))
             _exit(2);
-        const nurbs_grid *grid = problem.grid;
-        galv_shape *shape =
-            shape_yaml_read(config.shape, nurbs_grid_rows(grid) * nurbs_grid_columns(grid),
-                            nurbs_grid_points(grid));
+        galv_shape *shape = problem_shape(&problem);
         bool ok = shape && problem_reduce(&problem, shape, &nobody) && forecast_run(&problem, &f);
         _exit(ok && write(ends[1], &f, sizeof f) == sizeof f ? 0 : 3);
     }

@@ -32,16 +32,16 @@ static double *choose_parameters(const nurbs_patches *patches, int axis, size_t 
     return out;
 }
 
-static bool sample(const char *path, const nurbs_patches *patches, struct hull *hull)
+static bool sample(const char *path, struct hull *hull)
 {
-    double *u = choose_parameters(patches, 0, &hull->sections);
-    double *v = choose_parameters(patches, 1, &hull->girth);
+    hull->u = choose_parameters(hull->patches, 0, &hull->sections);
+    hull->v = choose_parameters(hull->patches, 1, &hull->girth);
     nurbs_grid *grid = NULL;
     bool ok = false;
-    if (!u || !v)
+    if (!hull->u || !hull->v)
         cli_fail("%s: keeps no design grid of its own; give --grid SECTIONSxGIRTH", path);
-    else if (nurbs_grid_sample(nurbs_patches_get(patches, 0), hull->sections, u, hull->girth, v,
-                               &grid) != NURBS_OK)
+    else if (nurbs_grid_sample(nurbs_patches_get(hull->patches, 0), hull->sections, hull->u,
+                               hull->girth, hull->v, &grid) != NURBS_OK)
         cli_fail("%s: %s", path, nurbs_last_error());
     else
         ok = true;
@@ -54,8 +54,6 @@ static bool sample(const char *path, const nurbs_patches *patches, struct hull *
     if (ok)
         memcpy(hull->xyz, nurbs_grid_points(grid), 3 * hull->npoints * sizeof *hull->xyz);
     nurbs_grid_free(grid);
-    free(u);
-    free(v);
     return ok;
 }
 
@@ -64,19 +62,33 @@ bool hull_read(const char *path, size_t sections, size_t girth, struct hull *hul
     *hull = (struct hull){.sections = sections, .girth = girth};
     if (!has_suffix(path, ".json"))
         return hull_grid_read(path, &hull->xyz, &hull->npoints, &hull->sections, &hull->girth);
-    nurbs_patches *patches = NULL;
-    if (nurbs_patches_read(path, &patches) != NURBS_OK) {
+    if (nurbs_patches_read(path, &hull->patches) != NURBS_OK) {
         cli_fail("%s", nurbs_last_error());
         return false;
     }
-    bool ok = nurbs_patches_count(patches) > 0 && sample(path, patches, hull);
-    nurbs_patches_free(patches);
+    bool ok = nurbs_patches_count(hull->patches) > 0 && sample(path, hull);
+    if (!ok)
+        hull_free(hull);
     return ok;
+}
+
+struct shape_points hull_points(const struct hull *hull)
+{
+    return (struct shape_points){.n = hull->npoints,
+                                 .xyz = hull->xyz,
+                                 .surface = nurbs_patches_get(hull->patches, 0),
+                                 .rows = hull->sections,
+                                 .columns = hull->girth,
+                                 .u = hull->u,
+                                 .v = hull->v};
 }
 
 void hull_free(struct hull *hull)
 {
     free(hull->xyz);
+    free(hull->u);
+    free(hull->v);
+    nurbs_patches_free(hull->patches);
     *hull = (struct hull){.xyz = NULL};
 }
 

@@ -29,9 +29,7 @@ static int print_json(const struct arguments *a)
     json_result_set(root, "sections", json_whole(file->sections));
     json_result_set(root, "hull", json_string(file->hull));
     json_result_set(root, "shape",
-                    json_string(!file->shape.n                    ? "snapshots"
-                                : file->shape.kind == SHAPE_SINES ? "sines"
-                                                                  : "lattice"));
+                    json_string(file->shape.n ? shape_kind_name(file->shape.kind) : "snapshots"));
     return json_print(root, &a->warnings);
 }
 
@@ -44,13 +42,15 @@ static int print_text(const struct model_file *file)
     printf("%s: %zu points", file->hull, galv_model_points(m));
     if (file->girth)
         printf(" (%zu x %zu)", file->sections, file->girth);
+    bool sines = file->shape.kind == SHAPE_SINES;
     if (!file->shape.n)
         printf(", snapshots\n");
     else
         printf(", %zu %s parameters of %s\n", galv_model_parameters(m),
-               file->shape.kind == SHAPE_SINES ? shape_combination_name(file->shape.combination)
-                                               : "linear",
-               file->shape.kind == SHAPE_SINES ? "sine products" : "a lattice");
+               sines ? shape_combination_name(file->shape.combination) : "linear",
+               sines                               ? "sine products"
+               : file->shape.kind == SHAPE_LATTICE ? "a lattice"
+                                                   : "control points");
     printf("%zu samples", galv_model_samples(m));
     if (file->uniform)
         printf(" (uniform, seed %zu)", file->seed);

@@ -52,23 +52,36 @@ static bool write_model(hid_t h5, const galv_model *model)
 }
 
 /* The table of what each parameter does: for sines n rows of order (3), phase (3), direction; for a
- * lattice n rows of control point (3), direction. */
+ * lattice n rows of control point (3), direction; for control points n rows of how far each point
+ * of the grid goes with them, direction. */
+static size_t table_columns(const struct shape_definition *shape)
+{
+    return 1 + (shape->kind == SHAPE_SINES ? 6 : shape->kind == SHAPE_LATTICE ? 3 : shape->npoints);
+}
+
+static void put_row(const struct shape_definition *shape, size_t i, double *row)
+{
+    for (size_t j = 0; j < 3 && shape->kind != SHAPE_CONTROL_POINTS; j++) {
+        if (shape->kind == SHAPE_SINES) {
+            row[j] = shape->functions[i].order[j];
+            row[3 + j] = shape->functions[i].phase[j];
+        } else {
+            row[j] = (double)shape->moves[i].index[j];
+        }
+    }
+    int direction =
+        shape->kind == SHAPE_SINES ? shape->functions[i].direction : shape->moves[i].direction;
+    for (size_t p = 0; p < shape->npoints; p++)
+        row[p] = shape->fields[3 * (i * shape->npoints + p) + (size_t)direction];
+    row[table_columns(shape) - 1] = direction;
+}
+
 static bool write_table(hid_t h5, const struct shape_definition *shape)
 {
-    size_t columns = shape->kind == SHAPE_SINES ? 7 : 4;
+    size_t columns = table_columns(shape);
     double *table = malloc(shape->n * columns * sizeof *table);
     for (size_t i = 0; table && i < shape->n; i++)
-        for (size_t j = 0; j < 3; j++) {
-            double *row = table + i * columns;
-            if (shape->kind == SHAPE_SINES) {
-                row[j] = shape->functions[i].order[j];
-                row[3 + j] = shape->functions[i].phase[j];
-                row[6] = shape->functions[i].direction;
-            } else {
-                row[j] = (double)shape->moves[i].index[j];
-                row[3] = shape->moves[i].direction;
-            }
-        }
+        put_row(shape, i, table + i * columns);
     bool ok = table && h5_write_array(h5, "table", shape->n, columns, table);
     free(table);
     return ok;
@@ -83,7 +96,7 @@ static bool write_shape(hid_t h5, const struct shape_definition *shape)
         lattice[j] = (double)shape->count[j];
         lattice[3 + j] = shape->degree[j];
     }
-    return h5_write_text(h5, "kind", shape->kind == SHAPE_SINES ? "sines" : "lattice") &&
+    return h5_write_text(h5, "kind", shape_kind_name(shape->kind)) &&
            h5_write_text(h5, "combination", shape_combination_name(shape->combination)) &&
            h5_write_count(h5, "parameters", shape->n) &&
            h5_write_array(h5, "box_origin", 3, 0, shape->box.origin) &&
@@ -245,48 +258,61 @@ static bool index_from(double value, double most, size_t *out)
     return true;
 }
 
+/* False: a row that no parameter has. */
+static bool take_row(const double *row, size_t i, struct shape_definition *shape)
+{
+    size_t axis = 0;
+    bool ok = index_from(row[table_columns(shape) - 1], 2, &axis);
+    for (int j = 0; j < 3 && ok && shape->kind != SHAPE_CONTROL_POINTS; j++) {
+        if (shape->kind == SHAPE_SINES) {
+            shape->functions[i].order[j] = row[j];
+            shape->functions[i].phase[j] = row[3 + j];
+        } else {
+            ok = index_from(row[j], 1000, &shape->moves[i].index[j]);
+        }
+    }
+    for (size_t p = 0; p < shape->npoints && ok; p++)
+        shape->fields[3 * (i * shape->npoints + p) + axis] = row[p];
+    if (shape->kind == SHAPE_SINES)
+        shape->functions[i].direction = (int)axis;
+    else
+        shape->moves[i].direction = (int)axis;
+    return ok;
+}
+
 static bool read_table(struct reader *r, struct shape_definition *shape)
 {
-    size_t columns = shape->kind == SHAPE_SINES ? 7 : 4, axis = 0;
+    size_t columns = table_columns(shape);
     double *table;
     if (!array(r, "table", shape->n, columns, &table))
         return false;
-    for (size_t i = 0; i < shape->n && !r->wrong; i++) {
-        const double *row = table + i * columns;
-        bool ok = index_from(row[columns - 1], 2, &axis);
-        for (int j = 0; j < 3 && ok; j++) {
-            if (shape->kind == SHAPE_SINES) {
-                shape->functions[i].order[j] = row[j];
-                shape->functions[i].phase[j] = row[3 + j];
-            } else {
-                ok = index_from(row[j], 1000, &shape->moves[i].index[j]);
-            }
-        }
-        if (!ok)
+    for (size_t i = 0; i < shape->n && !r->wrong; i++)
+        if (!take_row(table + i * columns, i, shape))
             r->wrong = "table";
-        else if (shape->kind == SHAPE_SINES)
-            shape->functions[i].direction = (int)axis;
-        else
-            shape->moves[i].direction = (int)axis;
-    }
     free(table);
     return !r->wrong;
 }
 
-static bool read_shape(struct reader *r, size_t parameters, struct shape_definition *shape)
+static bool read_shape(struct reader *r, const galv_model *model, struct shape_definition *shape)
 {
     char kind[16] = "", combination[16] = "";
     size_t n = 0, index;
     double lattice[6];
     if (!h5_read_text(r->h5, "kind", kind, sizeof kind) || !count(r, "parameters", &n) ||
-        n != parameters) {
+        n != galv_model_parameters(model)) {
         r->wrong = "shape";
         return false;
     }
     if (!n && strcmp(kind, "snapshots") == 0)
         return true;
-    enum shape_kind which = strcmp(kind, "lattice") == 0 ? SHAPE_LATTICE : SHAPE_SINES;
-    if (!shape_definition_allocate(which, n, shape)) {
+    enum shape_kind which = SHAPE_SINES;
+    while (which < SHAPE_KINDS && strcmp(kind, shape_kind_name(which)) != 0)
+        which++;
+    if (which == SHAPE_KINDS) {
+        r->wrong = "shape (kind)";
+        return false;
+    }
+    if (!shape_definition_allocate(which, n, galv_model_points(model), shape)) {
         r->wrong = "shape (out of memory)";
         return false;
     }
@@ -377,7 +403,7 @@ static bool read_all(struct reader *r, struct model_file *file)
         return false;
     }
     struct reader inner = {.h5 = group};
-    bool ok = read_shape(&inner, galv_model_parameters(file->model), &file->shape);
+    bool ok = read_shape(&inner, file->model, &file->shape);
     r->wrong = inner.wrong;
     H5Gclose(group);
     return ok;

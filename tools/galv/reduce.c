@@ -155,9 +155,10 @@ static bool load_hull(struct reduction *r)
 
 static bool load_shape(struct reduction *r)
 {
+    const struct shape_points points = hull_points(&r->hull);
     if (!r->a->shape)
         return true;
-    return shape_definition_read(r->a->shape, r->hull.npoints, r->hull.xyz, &r->definition) &&
+    return shape_definition_read(r->a->shape, &points, &r->definition) &&
            (!shape_definition_create(&r->definition, &r->shape) ||
             cli_refuse("%s: %s", r->a->shape, galv_last_error()));
 }

@@ -1,5 +1,6 @@
 #include "core/problem.h"
 
+#include "cli.h"
 #include "core/external.h"
 #include "core/particulars.h"
 #include "core/snapshots.h"
@@ -374,13 +375,33 @@ static int displace_to_ends(void *user_data, size_t npoints, const double *xyz, 
     return 0;
 }
 
+static galv_shape *read_shape(const struct problem *problem)
+{
+    const nurbs_patches *full = nurbs_hull_full(problem->source);
+    struct shape_points points = {.n = count_points(problem),
+                                  .xyz = nurbs_grid_points(problem->grid),
+                                  .surface = nurbs_patches_get(full, 0),
+                                  .rows = nurbs_grid_rows(problem->grid),
+                                  .columns = nurbs_grid_columns(problem->grid)};
+    double *u = cli_needed(malloc((points.rows + points.columns) * sizeof *u));
+    galv_shape *shape = NULL;
+    points.u = u;
+    points.v = u + points.rows;
+    if (nurbs_patches_design_parameters(full, 0, 0, points.rows, u) != NURBS_OK ||
+        nurbs_patches_design_parameters(full, 0, 1, points.columns, u + points.rows) != NURBS_OK)
+        cli_fail("%s: %s", problem->config->hull, nurbs_last_error());
+    else
+        shape = shape_yaml_read(problem->config->shape, &points);
+    free(u);
+    return shape;
+}
+
 galv_shape *problem_shape(struct problem *problem)
 {
     const struct config *config = problem->config;
     galv_shape *shape = NULL;
     if (!config->maker.command)
-        return shape_yaml_read(config->shape, count_points(problem),
-                               nurbs_grid_points(problem->grid));
+        return read_shape(problem);
     size_t d = config->n_parameters;
     double *bound = malloc(2 * d * sizeof *bound);
     for (size_t k = 0; bound && k < d; k++) {
