@@ -314,6 +314,18 @@ static size_t violations_of(const struct config *asked, const char *name,
     return SIZE_MAX;
 }
 
+/* A search ends on its limits: what lies on one but for rounding is kept. */
+static void test_on_a_limit(void)
+{
+    const struct config asked = {.breadth = 0.2, .pressure = NAN, .speeds = NAN, .confirm = NAN};
+    struct evaluation e[2] = {{.cw = 1, .breadth = 1}, {.id = 1, .cw = 1}};
+    static const double breadth[] = {0.2 - 1e-14, 0.2 - 1e-5, 0.2 - 1e-4};
+    for (size_t i = 0; i < 3; i++) {
+        e[1].breadth = breadth[i];
+        CU_ASSERT_EQUAL(violations_of(&asked, "breadth", e), i == 2);
+    }
+}
+
 /* Of a gain of 50 % the other models see 50 and 10: enough for a fifth of it, not for a half. Then
  * the solver's own C_w alone is the objective. */
 static void test_confirmed_gain(void)
@@ -347,6 +359,7 @@ static const struct check_case cases[] = {
     {"the worst of several models", test_worst_of_models},
     {"resistances as the objective", test_quantities},
     {"a share of the gain confirmed", test_confirmed_gain},
+    {"on a limit but for rounding", test_on_a_limit},
 };
 
 int main(void)

@@ -439,7 +439,8 @@ void constraints_figures(const struct config *config, size_t k, const struct eva
         f->change = f->ratio - 1;
         f->excess = excess_of(c, config, c->known ? f->ratio : outcome(c, config, e, parent, most));
     }
-    f->kept = isnan(f->allowed) || f->excess <= 0;
+    double rounding = c->known && c->bound != RANGE ? ROUNDING : 0;
+    f->kept = isnan(f->allowed) || f->excess <= rounding;
     print_limit(c, config, f->limit);
 }
 
