@@ -53,6 +53,15 @@ static galv_status check_finite(const char *what, size_t n, const double *values
     return GALV_OK;
 }
 
+/* Of numbers that are finite one by one, sums need not be. */
+static galv_status check_result(const char *what, size_t n, const double *values)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!isfinite(values[i]))
+            return galv_fail(GALV_ERROR_NUMERIC, "%s %zu overflows", what, i);
+    return GALV_OK;
+}
+
 galv_status galv_project(const galv_model *model, const double *d, double *u)
 {
     if (!model || !d || !u)
@@ -74,7 +83,7 @@ galv_status galv_project(const galv_model *model, const double *d, double *u)
                 sum += mode[i] * (d[i] - model->mean[i]);
         u[k] = sum;
     }
-    return GALV_OK;
+    return check_result("latent coordinate", model->modes, u);
 }
 
 galv_status galv_latent_check(const galv_model *model, const double *u)
@@ -107,7 +116,7 @@ galv_status galv_reconstruct(const galv_model *model, const double *u, double *d
     if (status)
         return status;
     galv_model_displacement(model, u, 0, model->coordinates, d);
-    return GALV_OK;
+    return check_result("displacement", model->coordinates, d);
 }
 
 galv_status galv_displace(const galv_model *model, const double *u, double *moved)
@@ -122,5 +131,5 @@ galv_status galv_displace(const galv_model *model, const double *u, double *move
     galv_model_displacement(model, u, 0, 3 * model->points, moved);
     for (size_t k = 0; k < 3 * model->points; k++)
         moved[k] += model->parent[k];
-    return GALV_OK;
+    return check_result("coordinate of a point", 3 * model->points, moved);
 }

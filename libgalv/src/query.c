@@ -96,5 +96,7 @@ galv_status galv_latent_distance(const galv_model *model, const double *u, doubl
             least = fmin(least, square_distance(model, u, model->latent + r * model->modes));
         *nearest = sqrt(least);
     }
+    if ((radius && !isfinite(*radius)) || (nearest && model->samples && !isfinite(*nearest)))
+        return galv_fail(GALV_ERROR_NUMERIC, "a distance in the latent space overflows");
     return GALV_OK;
 }

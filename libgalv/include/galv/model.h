@@ -295,7 +295,8 @@ GALV_API galv_status galv_latent_ellipsoid(const galv_model *model, double cover
 GALV_API galv_status galv_latent_distance(const galv_model *model, const double *u, double *radius,
                                           double *nearest);
 
-/** Latent coordinates of a displacement, u = W1^T (d - mean): d has L numbers, u m, filled. */
+/** Latent coordinates of a displacement, u = W1^T (d - mean): d has L numbers, u m, filled.
+ * Here and in the calls below GALV_ERROR_NUMERIC: finite numbers whose sum is not. */
 GALV_API galv_status galv_project(const galv_model *model, const double *d, double *u);
 
 /** Displacement of a latent point, d = mean + W1 u: u has m numbers, d L, filled. The same bits on
