@@ -340,9 +340,25 @@ static void saving(void)
         fclose(file);
         CU_ASSERT_EQUAL(bayesopt_gp_load(path, &gp), BAYESOPT_ERROR_FORMAT);
     }
+    text[size] = '\0';
+    /* Groups with a gap, a scale without end, and a head that claims more than the file holds. */
+    static const char *const lines[][2] = {{"groups", "groups 1 0 0 0"},
+                                           {"scales", "scales inf 1 1 1"},
+                                           {"head", "head 4 1000000 0 0 0 0 0 0"}};
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        const char *line = strstr(text, lines[i][0]);
+        bayesopt_gp *gp = NULL;
+        CU_ASSERT_PTR_NOT_NULL_FATAL(line);
+        file = fopen(path, "w");
+        fprintf(file, "%.*s%s%s", (int)(line - text), text, lines[i][1],
+                line + strcspn(line, "\n"));
+        fclose(file);
+        CU_ASSERT_EQUAL(bayesopt_gp_load(path, &gp), BAYESOPT_ERROR_FORMAT);
+    }
     remove(path);
     bayesopt_gp *gp;
     CU_ASSERT_EQUAL(bayesopt_gp_load(path, &gp), BAYESOPT_ERROR_FILE);
+    CU_ASSERT_PTR_NOT_NULL(strstr(bayesopt_last_error(), "No such file"));
 }
 
 /* Coincident points, constant outputs, one point: conditioned with jitter, never refused. */

@@ -2,6 +2,7 @@
 #include "core/error.h"
 #include "gp/gp_internal.h"
 
+#include <errno.h>
 #include <locale.h>
 #include <math.h>
 #include <stdio.h>
@@ -85,6 +86,7 @@ bayesopt_status bayesopt_gp_save(const bayesopt_gp *gp, const char *path)
     memcpy(temporary + length, ".new", 5);
     FILE *file = fopen(temporary, "w");
     bool ok = file != NULL;
+    int reason = errno;
     if (ok) {
         locale_t before, c = enter_c_locale(&before);
         ok = c != (locale_t)0;
@@ -93,12 +95,20 @@ bayesopt_status bayesopt_gp_save(const bayesopt_gp *gp, const char *path)
             leave_c_locale(c, before);
         }
         ok = ok && !ferror(file) && fflush(file) == 0 && fsync(fileno(file)) == 0;
-        ok = fclose(file) == 0 && ok && rename(temporary, path) == 0;
+        reason = errno;
+        bool closed = fclose(file) == 0;
+        if (ok && (!closed || rename(temporary, path) != 0)) {
+            reason = errno;
+            ok = false;
+        }
         if (!ok)
             remove(temporary);
     }
     free(temporary);
-    return ok ? BAYESOPT_OK : bayesopt_fail(BAYESOPT_ERROR_FILE, "%s: cannot be written", path);
+    if (ok)
+        return BAYESOPT_OK;
+    return bayesopt_fail(reason == ENOMEM ? BAYESOPT_ERROR_MEMORY : BAYESOPT_ERROR_FILE,
+                         "%s: cannot be written: %s", path, strerror(reason));
 }
 
 /* Reads "key" and n numbers; at most one of them may be NAN where the format says so. */
@@ -172,16 +182,31 @@ static bool read_map(FILE *file, struct transform *t)
            get(file, "scores", t->n, t->scores);
 }
 
+/* Room grows with what the file has, not with what its head claims. */
+static double *read_points(FILE *file, size_t d, size_t n)
+{
+    double *x = malloc((d + 1) * sizeof *x);
+    bool ok = x != NULL;
+    for (size_t i = 0, room = 1; i < n && ok; i++) {
+        double *more = i < room ? x : realloc(x, 2 * room * d * sizeof *x);
+        room = i < room ? room : 2 * room;
+        x = more ? more : x;
+        ok = more && get(file, "x", d, x + i * d);
+    }
+    if (!ok) {
+        free(x);
+        x = NULL;
+    }
+    return x;
+}
+
 static bool read_data(FILE *file, bayesopt_gp *gp, size_t n)
 {
-    double *x = malloc((n * (gp->d + 2) + 1) * sizeof *x);
-    double *y = x + n * gp->d, *variance = y + n;
-    bool ok = x != NULL;
-    for (size_t i = 0; i < n && ok; i++)
-        ok = get(file, "x", gp->d, x + i * gp->d);
-    ok = ok && get(file, "y", n, y) && get(file, "variance", n, variance);
-    ok = ok && !bayesopt_gp_set_data(gp, n, x, y, variance);
+    double *x = read_points(file, gp->d, n), *y = x ? malloc((2 * n + 1) * sizeof *y) : NULL;
+    bool ok = y && get(file, "y", n, y) && get(file, "variance", n, y + n) &&
+              !bayesopt_gp_set_data(gp, n, x, y, y + n);
     free(x);
+    free(y);
     return ok;
 }
 
@@ -190,12 +215,16 @@ static bool read_state(FILE *file, bayesopt_gp *gp, size_t *group)
     double state[7], *groups = malloc(gp->d * sizeof *groups);
     bool ok = groups && get(file, "state", 7, state) &&
               get(file, "scales", gp->d, gp->lengthscale) && get(file, "groups", gp->d, groups);
+    size_t count = 0; /* of groups, whose numbers have no gaps */
     for (size_t j = 0; j < gp->d && ok; j++) {
-        ok = gp->lengthscale[j] >= 0 && whole(groups[j], (double)gp->d);
+        ok = gp->lengthscale[j] >= 0 && isfinite(gp->lengthscale[j]) &&
+             whole(groups[j], (double)count);
         group[j] = ok ? (size_t)groups[j] : 0;
+        count += ok && group[j] == count;
     }
     free(groups);
-    if (!ok || !(state[3] >= 0) || !(state[4] >= 0) || !isfinite(state[5]))
+    if (!ok || !(state[3] >= 0 && isfinite(state[3])) || !(state[4] >= 0 && isfinite(state[4])) ||
+        !isfinite(state[5]))
         return false;
     gp->has_parameters = state[0] != 0;
     gp->isotropic = state[1] != 0;
@@ -257,14 +286,24 @@ bayesopt_status bayesopt_gp_load(const char *path, bayesopt_gp **gp)
     NEED(gp);
     FILE *file = fopen(path, "r");
     if (!file)
-        return bayesopt_fail(BAYESOPT_ERROR_FILE, "%s: cannot be read", path);
+        return bayesopt_fail(errno == ENOMEM ? BAYESOPT_ERROR_MEMORY : BAYESOPT_ERROR_FILE,
+                             "%s: cannot be read: %s", path, strerror(errno));
     locale_t before, c = enter_c_locale(&before);
     bayesopt_status status = BAYESOPT_ERROR_MEMORY;
+    errno = 0;
     if (c) {
         status = read_all(file, gp);
         leave_c_locale(c, before);
     }
+    /* Readers and the algebra say no more than that they could not. */
+    bool no_memory = status == BAYESOPT_ERROR_MEMORY || (status && errno == ENOMEM);
+    bool unread = ferror(file) != 0;
+    int reason = errno;
     fclose(file);
+    if (no_memory)
+        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "%s: out of memory", path);
+    if (unread)
+        return bayesopt_fail(BAYESOPT_ERROR_FILE, "%s: cannot be read: %s", path, strerror(reason));
     return status ? bayesopt_fail(status, "%s: not a regression saved by bayesopt_gp_save()", path)
                   : BAYESOPT_OK;
 }
