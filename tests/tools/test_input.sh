@@ -16,6 +16,7 @@ fail() {
 }
 nurbs make wigley --length 1 -o hull.json && nurbs grid hull.json --rows 12 --columns 7 -o grid.csv || exit 1
 shape=$source/examples/wigley_shape.yaml
+bayesopt ask asked.db --lower 0 --upper 1 >out || exit 1
 truncate -s 2G sparse
 mkdir folder
 ln -s /dev/zero zero
@@ -50,6 +51,7 @@ for input in sparse zero folder; do
     refuses "$input.yaml" galv reduce --hull grid.csv --shape "$input.yaml" --random 10
     refuses "$input.h5" galv info "$input.h5"
     refuses "$input.db" bayesopt status "$input.db"
+    refuses "$input.csv" bayesopt tell asked.db --table "$input.csv"
     refuses "$input.yaml" bayesopt run "$input.yaml"
     refuses "$input.yaml" hullopt run "$input.yaml" --out result
 done
@@ -63,6 +65,7 @@ printf 'u,v\n0.5,0.5\n' >pipe.csv &
 nurbs eval hull.json --at pipe.csv >out || fail "a FIFO"
 # Numbers without end.
 refuses "standard input" sh -c "{ echo X,Y,Z; yes 1,; } | igabem green"
+refuses "standard input" sh -c "{ echo f,id; yes 1,2; } | bayesopt tell asked.db --table -"
 refuses "standard input" sh -c "tr '\\0' 1 </dev/zero | igabem green"
 
 # A byte order mark is no part of the first name; a binary field is not echoed.

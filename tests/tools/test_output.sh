@@ -196,10 +196,30 @@ last" ] && [ "$(wc -c <joined)" -gt 100 ] || fail "$output /dev/stdout: $(head -
     $output elsewhere 2>err
     refuses "elsewhere: cannot be written: Is a directory" $? $output elsewhere
 done
+# A file below /dev that is no device is replaced as any other.
+if [ -d /dev/shm ] && [ -w /dev/shm ]; then
+    memory=$(mktemp -d -p /dev/shm)
+    for output in "nurbs make sphere -o" "bayesopt export study.db -o"; do
+        $output "$memory/out.json" 2>err && cp "$memory/out.json" once && $output "$memory/out.json" 2>err &&
+            cmp -s once "$memory/out.json" || fail "$output a file in /dev/shm: $(cat err)"
+    done
+    rm -r "$memory"
+fi
 chmod 640 elsewhere/target.json
 nurbs make sphere -o elsewhere/target.json && [ "$(stat -c %a elsewhere/target.json)" = 640 ] ||
     fail "rights of a file that is replaced"
 [ -z "$(find . -name '*.??????' ! -name '*.*.*' -newer run.yaml | grep -E '\.[A-Za-z0-9]{6}$')" ] || fail "temporary files are left: $(ls)"
+
+# A limit of the shell for files is like a full disk, also to a store.
+mkdir limited
+limited() { (cd limited && ulimit -f 4 && "$@" >/dev/null 2>../err); }
+limited nurbs make fast -o x.json
+refuses "x.json: cannot be written: File too large" $? nurbs make -o x.json
+limited galv reduce --hull ../grid.csv --shape "$shape" --random 40 -o model.h5
+refuses "model.h5: cannot be written: File too large" $? galv reduce -o model.h5
+[ -z "$(ls limited)" ] || fail "files are left where none may be long: $(ls limited)"
+limited bayesopt ask store.db --lower 0 --upper 1
+refuses "store.db: " $? bayesopt ask store.db
 
 # A closed standard output is not the next file that is opened.
 nurbs make sphere -o closed.json --json >&- 2>err

@@ -35,6 +35,9 @@ static char *next_field(char **at)
     return field;
 }
 
+/* Far beyond any history, far below what would fill a machine. */
+static const size_t MOST_CELLS = (size_t)1 << 24;
+
 static bool add_row(struct csv *csv, size_t line, char *text)
 {
     bool header = csv->columns == 0;
@@ -42,6 +45,9 @@ static bool add_row(struct csv *csv, size_t line, char *text)
         csv->columns += *c == ',';
     csv->columns += header;
     size_t rows = header ? 0 : csv->rows + 1, k = 0;
+    if ((rows + 1) * csv->columns > MOST_CELLS)
+        return cli_refuse("%s:%zu: more than %zu fields, too many for a table", csv->path, line,
+                          MOST_CELLS);
     char **more = realloc(csv->cells, (rows + 1) * csv->columns * sizeof *more);
     if (more)
         csv->cells = more;
@@ -70,23 +76,20 @@ bool csv_read(const char *path, struct csv *csv)
     bool standard = strcmp(path, "-") == 0, ok = true;
     *csv = (struct csv){.path = standard ? "standard input" : path};
     FILE *file = standard ? stdin : fopen(path, "r");
-    char *text = NULL;
-    size_t room = 0, line = 0;
+    struct cli_line line = {0};
+    bool end = false;
     if (!file)
         return cli_refuse("%s: %s", path, strerror(errno));
-    while (ok && getline(&text, &room, file) >= 0) {
-        line++;
-        size_t length = strlen(text);
-        while (length && isspace((unsigned char)text[length - 1]))
-            text[--length] = '\0';
-        if (length && text[strspn(text, " \t")] != '#')
-            ok = add_row(csv, line, text);
+    while ((ok = ok && cli_line_read(file, csv->path, &line, &end)) && !end) {
+        size_t length = line.text ? strlen(line.text) : 0;
+        while (length && isspace((unsigned char)line.text[length - 1]))
+            line.text[--length] = '\0';
+        if (length && line.text[strspn(line.text, " \t")] != '#')
+            ok = add_row(csv, line.number, line.text);
     }
-    if (ok && ferror(file))
-        ok = cli_refuse("%s: %s", csv->path, strerror(errno));
     if (ok && !csv->columns)
         ok = cli_refuse("%s: empty, expected a header line", csv->path);
-    free(text);
+    free(line.text);
     if (!standard)
         fclose(file);
     if (!ok)

@@ -95,6 +95,7 @@ int cli_main(const char *name, int (*run)(int, char **), int argc, char **argv)
     struct sigaction action = {.sa_handler = ignore_signal, .sa_flags = SA_RESTART};
     sigemptyset(&action.sa_mask);
     sigaction(SIGPIPE, &action, NULL);
+    sigaction(SIGXFSZ, &action, NULL); /* a limit of the shell for files is like a full disk */
     int code = run(argc, argv), printed = cli_printed();
     return code == CLI_OK ? printed : code;
 }

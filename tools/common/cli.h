@@ -10,8 +10,9 @@
 enum { CLI_OK = 0, CLI_FAILED = 1, CLI_USAGE = 2 };
 
 /* All of main(): names the command, runs it, and makes of its success a failure when standard
- * output did not take what it printed. A reader that went away is an error like a full disk, not a
- * silent death; a standard stream that the caller closed does not become the first file opened. */
+ * output did not take what it printed. A reader that went away and a limit for files are errors
+ * like a full disk, not a silent death; a standard stream that the caller closed does not become
+ * the first file opened. */
 int cli_main(const char *name, int (*run)(int, char **), int argc, char **argv);
 
 /* A subcommand, as the help of its command shows it: "name operands", then the summary. */
@@ -92,8 +93,17 @@ void cli_file_abandon(struct cli_file *file);
 /* Removes what is unfinished, before the command ends. */
 void cli_files_remove(void);
 
-/* A whole file, with a zero behind it; NULL with errno. The caller frees. */
+/* A whole file, with a zero behind it; NULL with errno, EFBIG beyond 256 MiB. The caller frees. */
 char *cli_read(const char *path, size_t *length);
+
+/* One line of a text without its end, of 16 MiB at most; start with zeros, free the text. */
+struct cli_line {
+    char *text;
+    size_t room, number; /* number: from 1 */
+};
+/* Fills the next line; *end: there was none. False after the sentence, as of a line that is too
+ * long or holds a zero byte. PATH is for the sentence. */
+bool cli_line_read(FILE *stream, const char *path, struct cli_line *line, bool *end);
 
 /* A CSV table of numbers with a header line; '#' lines are comments. Columns are found by name; of
  * a file whose first line is numbers alone the columns have no names. */

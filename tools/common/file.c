@@ -35,7 +35,8 @@ void cli_files_remove(void)
 static bool is_stream(const char *path)
 {
     struct stat info;
-    return strncmp(path, "/dev/", 5) == 0 || strncmp(path, "/proc/", 6) == 0 ||
+    return strncmp(path, "/dev/std", 8) == 0 || strncmp(path, "/dev/fd/", 8) == 0 ||
+           strncmp(path, "/proc/", 6) == 0 ||
            (stat(path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode));
 }
 
@@ -192,6 +193,9 @@ void cli_file_abandon(struct cli_file *file)
     *file = (struct cli_file){NULL, NULL, NULL};
 }
 
+/* Far beyond what a program says of one evaluation. */
+static const size_t MOST_READ = (size_t)256 << 20;
+
 char *cli_read(const char *path, size_t *length)
 {
     FILE *file = fopen(path, "rb");
@@ -199,8 +203,9 @@ char *cli_read(const char *path, size_t *length)
     FILE *out = file ? text_open(&text, length) : NULL;
     char buffer[4096];
     size_t n;
-    while (out && (n = fread(buffer, 1, sizeof buffer, file)) > 0)
-        fwrite(buffer, 1, n, out);
+    size_t got = 0;
+    while (out && got <= MOST_READ && (n = fread(buffer, 1, sizeof buffer, file)) > 0)
+        got += fwrite(buffer, 1, n, out);
     bool ok = out && !ferror(file);
     if (out && !text_close(out, &text)) {
         errno = ENOMEM;
@@ -208,6 +213,10 @@ char *cli_read(const char *path, size_t *length)
     }
     if (file)
         fclose(file);
+    if (ok && *length > MOST_READ) {
+        errno = EFBIG;
+        ok = false;
+    }
     if (ok)
         return text;
     free(text);

@@ -104,14 +104,7 @@ static bool read_row(char *line, const char *path, size_t number, double *row, s
 /* Far beyond any table of designs or points, far below what would fill a machine. */
 static const size_t MOST_LINE = (size_t)16 << 20, MOST_NUMBERS = (size_t)1 << 28;
 
-/* One line without its end. */
-struct line {
-    char *text;
-    size_t room, number;
-};
-
-/* Fills the next line. *end: there was none. False after the sentence. */
-static bool read_line(FILE *stream, const char *path, struct line *line, bool *end)
+bool cli_line_read(FILE *stream, const char *path, struct cli_line *line, bool *end)
 {
     size_t n = 0;
     int byte;
@@ -172,11 +165,12 @@ static bool read_first(char *text, const char *path, bool *row, struct cli_table
            cli_refuse("%s: out of memory", path);
 }
 
-static bool read_lines(FILE *stream, const char *path, struct line *line, struct cli_table *table)
+static bool read_lines(FILE *stream, const char *path, struct cli_line *line,
+                       struct cli_table *table)
 {
     size_t room = 0;
     for (bool end = false, row = true;;) {
-        if (!read_line(stream, path, line, &end))
+        if (!cli_line_read(stream, path, line, &end))
             return false;
         if (end)
             return table->names || cli_refuse("%s: empty, expected a header line", path);
@@ -211,7 +205,7 @@ bool cli_table_read(const char *path, struct cli_table *table)
         cli_fail("%s: %s", path, strerror(errno));
         return false;
     }
-    struct line line = {0};
+    struct cli_line line = {0};
     bool ok = read_lines(stream, standard ? "standard input" : path, &line, table);
     free(line.text);
     if (!standard)
