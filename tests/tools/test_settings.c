@@ -166,7 +166,7 @@ static const struct setting ROWS[] = {
 };
 static const struct settings TABLE = {.n = sizeof ROWS / sizeof *ROWS, .rows = ROWS};
 
-static char path[200], said[2000];
+static char path[200], said[16000];
 
 /* What it prints becomes said. */
 static bool read_file(const char *name, struct run *run)
@@ -424,6 +424,15 @@ static void test_restore(void)
     CU_ASSERT_FALSE(settings_restore(&TABLE, "seed = 1\nsede = 2\n", &run, &line));
     CU_ASSERT_EQUAL(line, 2);
     CU_ASSERT_FALSE(settings_restore(&TABLE, "samples = many\n", &run, &line));
+    CU_ASSERT_EQUAL(line, 1);
+    /* What a file may not be without, and what goes with what. */
+    struct part part = {0};
+    settings_start(&PART, &part);
+    CU_ASSERT_FALSE(settings_restore(&PART, "bounds = 1, 2\n", &part, &line));
+    CU_ASSERT_EQUAL(line, 0);
+    CU_ASSERT_FALSE(settings_restore(&PART, "name = a\nbounds = 2, 1\n", &part, &line));
+    CU_ASSERT_TRUE(settings_restore(&PART, "bounds = 1, 2\nname = a\n", &part, &line));
+    settings_free(&PART, &part);
     settings_free(&TABLE, &run);
 }
 
@@ -473,6 +482,40 @@ static void test_bytes(void)
     settings_free(&TABLE, &run);
 }
 
+/* COUNT lines, in which %zu stands for the number of the line, and what is said of them. */
+static void read_many(size_t count, const char *before, const char *line, const char *after)
+{
+    struct run run;
+    FILE *out = fopen(path, "w");
+    CU_ASSERT_PTR_NOT_NULL_FATAL(out);
+    fputs(before, out);
+    for (size_t i = 0; i < count; i++) {
+        const char *at = strstr(line, "%zu");
+        fprintf(out, "%.*s%zu%s", (int)(at - line), line, i, at + 3);
+    }
+    fputs(after, out);
+    fclose(out);
+    CU_ASSERT_FALSE(read_file(path, &run));
+    settings_free(&TABLE, &run);
+}
+
+/* What would take hours or all memory is refused by its number. */
+static void test_very_many(void)
+{
+    read_many(300000, "", "k%zu: 1\n", "");
+    CU_ASSERT_PTR_NOT_NULL(strstr(said, "has 300000 keys, more than any settings have"));
+    read_many(300000, "speeds: [", "&a%zu 1,\n", "1]\n");
+    CU_ASSERT_PTR_NOT_NULL(strstr(said, "has more than 10000 '&'"));
+    read_many(20000, "speeds: [", "0:1:1e-5, \n # %zu\n", "1]\n");
+    CU_ASSERT_PTR_NOT_NULL(strstr(said, "speeds is '0:1:1e-5', expected"));
+    read_many(900, "", "k%zu: 1\n", "");
+    size_t lines = 0;
+    for (const char *c = said; *c; c++)
+        lines += *c == '\n';
+    CU_ASSERT_EQUAL(lines, 101);
+    CU_ASSERT_PTR_NOT_NULL(strstr(said, ": 800 more of such\n"));
+}
+
 int main(void)
 {
     static const struct check_case cases[] = {
@@ -487,6 +530,7 @@ int main(void)
         {"restore", test_restore},
         {"template", test_template},
         {"bytes", test_bytes},
+        {"very_many", test_very_many},
     };
     snprintf(path, sizeof path, "%s/settings_XXXXXX", check_scratch());
     int file = mkstemp(path);

@@ -104,12 +104,16 @@ static bool store(const struct setting *row, const char *text, size_t i, void *a
     }
 }
 
+/* Of a list, however many ranges it has. */
+enum { MOST_NUMBERS = 100000 };
+
 /* Appends the numbers of a text, "0.2,0.3" or "0.2:0.3:0.05", to the list. */
 static bool store_list(const struct setting *row, const char *text, double **list, size_t *n)
 {
     double *part = NULL, *more = NULL;
     size_t m = 0;
     bool ok = cli_parse_list(text, &part, &m);
+    ok = ok && *n + m <= MOST_NUMBERS;
     if (ok)
         more = cli_needed(realloc(*list, (*n + m) * sizeof *more));
     for (size_t i = 0; ok && i < m; i++) {
@@ -121,9 +125,16 @@ static bool store_list(const struct setting *row, const char *text, double **lis
     return ok;
 }
 
+/* That are told of a file; the rest is counted. */
+enum { MOST_COMPLAINTS = 100 };
+
 void settings_add(struct settings_source *source, size_t line, const char *key, const char *format,
                   ...)
 {
+    if (source->n >= MOST_COMPLAINTS) {
+        source->n++;
+        return;
+    }
     struct complaint *more =
         cli_needed(realloc(source->complaints, (source->n + 1) * sizeof *source->complaints));
     char *text = NULL;
@@ -258,9 +269,18 @@ bool settings_nearer(const char *a, const char *b, size_t *least)
     return nearer;
 }
 
+bool settings_forget(struct settings_source *source)
+{
+    for (size_t i = 0; i < source->n && i < MOST_COMPLAINTS; i++)
+        free(source->complaints[i].text);
+    free(source->complaints);
+    return source->n == 0;
+}
+
 bool settings_close(struct settings_source *source)
 {
-    for (size_t i = 0; i < source->n; i++) {
+    size_t told = source->n < MOST_COMPLAINTS ? source->n : MOST_COMPLAINTS;
+    for (size_t i = 0; i < told; i++) {
         const struct complaint *c = &source->complaints[i];
         if (!source->path)
             cli_usage("%s", c->text);
@@ -268,8 +288,9 @@ bool settings_close(struct settings_source *source)
             cli_fail("%s:%zu: %s", source->path, c->line, c->text);
         else
             cli_fail("%s: %s", source->path, c->text);
-        free(c->text);
     }
-    free(source->complaints);
-    return source->n == 0;
+    if (source->n > told)
+        cli_fail("%s: %zu more of such", source->path ? source->path : "the command line",
+                 source->n - told);
+    return settings_forget(source);
 }

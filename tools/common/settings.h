@@ -99,7 +99,8 @@ char *settings_value(const struct setting *row, const void *target);
  * lists of mappings are left out. The caller frees it; NULL when a file cannot be read. */
 char *settings_text(const struct settings *table, const void *target);
 /* Reads such a text over what stands in the target; a file becomes its name with the digest. False
- * at a line that no row reads, which *line (from 1) tells. */
+ * at a line that no row reads, which *line (from 1) tells, or, with 0, where a required row is
+ * missing or the check of the table has something to say. */
 bool settings_restore(const struct settings *table, const char *text, void *target, size_t *line);
 /* A YAML file of the rows with a key, each with its sentence in a comment and what stands in the
  * target. */

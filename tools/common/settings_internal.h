@@ -7,7 +7,7 @@
 /* What is wrong with a file or, path NULL, with a command line, in the order of the lines. */
 struct settings_source {
     const char *path;
-    size_t n;
+    size_t n; /* some of very many are not among the complaints */
     struct complaint {
         size_t line; /* 0: none */
         char *text;
@@ -27,6 +27,8 @@ __attribute__((format(printf, 5, 6))) void settings_refuse(struct settings_sourc
                                                            const char *format, ...);
 /* Prints the complaints; true when there were none. */
 bool settings_close(struct settings_source *source);
+/* The same without a word. */
+bool settings_forget(struct settings_source *source);
 
 /* Stores n texts as the value of a row. On failure complains by the key, unless source is NULL. */
 bool settings_set(struct settings_source *source, const struct setting *row, size_t line,

@@ -141,24 +141,53 @@ char *settings_text(const struct settings *table, const void *target)
     return NULL;
 }
 
+static const struct setting *row_of(const struct settings *table, const char *key, size_t length)
+{
+    for (size_t r = 0; r < table->n; r++) {
+        const char *known = table->rows[r].key;
+        if (known && strlen(known) == length && strncmp(known, key, length) == 0)
+            return &table->rows[r];
+    }
+    return NULL;
+}
+
+/* What was read is all there, and goes together. */
+static bool is_whole(const struct settings *table, const char *text, void *target)
+{
+    struct settings_source source = {.prefix = ""};
+    for (size_t r = 0; r < table->n; r++) {
+        const char *key = table->rows[r].key, *at = text;
+        if (!key || !table->rows[r].required)
+            continue;
+        size_t length = strlen(key);
+        while (at && (strncmp(at, key, length) != 0 || strncmp(at + length, " =", 2) != 0))
+            at = strchr(at, '\n') ? strchr(at, '\n') + 1 : NULL;
+        if (!at)
+            return false;
+    }
+    if (table->check)
+        table->check(&source, target);
+    return settings_forget(&source);
+}
+
 bool settings_restore(const struct settings *table, const char *text, void *target, size_t *line)
 {
-    for (*line = 1; *text; ++*line) {
-        size_t length = strcspn(text, "\n"), key = strcspn(text, " =\n"), r = 0;
-        while (r < table->n && !(table->rows[r].key && strlen(table->rows[r].key) == key &&
-                                 strncmp(table->rows[r].key, text, key) == 0))
-            r++;
-        if (r == table->n || strncmp(text + key, " =", 2) != 0)
+    const char *at = text;
+    for (*line = 1; *at; ++*line) {
+        size_t length = strcspn(at, "\n"), key = strcspn(at, " =\n");
+        const struct setting *row = row_of(table, at, key);
+        if (!row || strncmp(at + key, " =", 2) != 0)
             return false;
-        key += text[key + 2] == ' ' ? 3 : 2;
-        char *value = cli_needed(strndup(text + key, length - key));
-        bool ok = !*value || settings_set_text(NULL, &table->rows[r], 0, "", value, target);
+        key += at[key + 2] == ' ' ? 3 : 2;
+        char *value = cli_needed(strndup(at + key, length - key));
+        bool ok = !*value || settings_set_text(NULL, row, 0, "", value, target);
         free(value);
         if (!ok)
             return false;
-        text += length + (text[length] == '\n');
+        at += length + (at[length] == '\n');
     }
-    return true;
+    *line = 0;
+    return is_whole(table, text, target);
 }
 
 enum { HELP_COLUMN = 22, HELP_WIDTH = 96 };

@@ -7,8 +7,9 @@
 #include <string.h>
 #include <yaml.h>
 
-/* A file of settings is written by hand. */
-enum { MOST_BYTES = 4 << 20 };
+/* A file of settings is written by hand. libyaml compares each anchor with all before it, as keys
+ * are compared here. */
+enum { MOST_BYTES = 4 << 20, MOST_ANCHORS = 10000, MOST_KEYS = 1000 };
 
 /* libyaml's phrases are about its states; ours about what to mend. */
 static const char *const SYNTAX[][2] = {
@@ -29,7 +30,7 @@ static const char *const SYNTAX[][2] = {
 
 struct input {
     FILE *stream;
-    size_t left;
+    size_t left, anchors;
 };
 
 static int read_bytes(void *user_data, unsigned char *buffer, size_t size, size_t *n)
@@ -37,7 +38,9 @@ static int read_bytes(void *user_data, unsigned char *buffer, size_t size, size_
     struct input *input = user_data;
     *n = fread(buffer, 1, size < input->left ? size : input->left, input->stream);
     input->left -= *n;
-    return input->left > 0 && !ferror(input->stream);
+    for (size_t i = 0; i < *n; i++)
+        input->anchors += buffer[i] == '&';
+    return input->left > 0 && input->anchors <= MOST_ANCHORS && !ferror(input->stream);
 }
 
 static void complain_syntax(struct settings_source *source, const yaml_parser_t *parser,
@@ -52,6 +55,9 @@ static void complain_syntax(struct settings_source *source, const yaml_parser_t 
     else if (!input->left)
         settings_add(source, 0, "", "is longer than %d bytes, and no file of settings",
                      (int)MOST_BYTES);
+    else if (input->anchors > MOST_ANCHORS)
+        settings_add(source, 0, "", "has more than %d '&', and is no file of settings",
+                     (int)MOST_ANCHORS);
     else if (parser->error == YAML_READER_ERROR)
         settings_add(source, 0, "", "holds bytes that are not UTF-8 text, from byte %zu on",
                      parser->problem_offset);
@@ -66,9 +72,11 @@ static void complain_syntax(struct settings_source *source, const yaml_parser_t 
 static bool load(struct settings_source *source, yaml_document_t *document)
 {
     yaml_parser_t parser;
-    struct input input = {fopen(source->path, "rb"), MOST_BYTES};
+    struct input input = {fopen(source->path, "rb"), MOST_BYTES, 0};
     if (!input.stream || !yaml_parser_initialize(&parser)) {
-        settings_add(source, 0, "", "%s", strerror(errno));
+        settings_add(source, 0, "", "%s", strerror(input.stream ? ENOMEM : errno));
+        if (input.stream)
+            fclose(input.stream);
         return false;
     }
     yaml_parser_set_input(&parser, read_bytes, &input);
@@ -209,6 +217,12 @@ static void complain_unknown(struct settings_source *source, const struct settin
 static void read_mapping(struct settings_source *source, const struct settings *table,
                          const yaml_node_t *node, const char *section, void *target)
 {
+    size_t keys = (size_t)(node->data.mapping.pairs.top - node->data.mapping.pairs.start);
+    if (keys > MOST_KEYS) {
+        settings_add(source, line_of(node), section, "has %zu keys, more than any settings have",
+                     keys);
+        return;
+    }
     for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top;
          p++) {
         const yaml_node_t *key = node_at(source, p->key), *value = node_at(source, p->value);

@@ -69,6 +69,9 @@ bool optimise_resume(struct problem *problem, const char *path)
         core_fail("%s was started with another configuration (%s): resume with that one or "
                   "choose another folder",
                   path, difference);
+    if (ok && ((origin.initial && origin.n_initial != problem->config->initial) ||
+               (origin.map && origin.n_parameters != problem->config->n_parameters)))
+        ok = core_fail("%s: its initial designs or its parameters are damaged", path);
     if (ok) {
         problem->ends = origin.ends;
         origin.ends = NULL;

@@ -357,23 +357,52 @@ static bool check_format(const struct record *record)
                      "does not read");
 }
 
+/* An array that need not be there. size: how many rows and columns there are to be, or 0 for any
+ * number, which is filled. */
+static bool get_block(const struct record *record, const char *name, size_t size[2],
+                      double **values)
+{
+    size_t found[2];
+    if (!record_get_array(record, name, &found[0], &found[1], values))
+        return false;
+    for (int k = 0; k < 2 && *values; k++) {
+        if (size[k] && size[k] != found[k])
+            return core_fail("'%s' is damaged: %zu x %zu numbers", name, found[0], found[1]);
+        size[k] = found[k];
+    }
+    return true;
+}
+
+static bool get_grid(const struct record *record, size_t points, size_t size[2])
+{
+    double grid[2];
+    if (!get_numbers(record, "grid", 2, grid))
+        return false;
+    for (int k = 0; k < 2; k++) {
+        if (!(grid[k] >= 2 && grid[k] <= (double)points) || grid[k] != floor(grid[k]))
+            return core_fail("'grid' is damaged");
+        size[k] = (size_t)grid[k];
+    }
+    return true;
+}
+
 static bool read_origin(const struct record *record, struct origin *o)
 {
-    size_t rows, columns;
-    double grid[2];
     if (!check_format(record) || !record_get_text(record, CONFIGURATION, &o->configuration) ||
         !get_solver(record, &o->solver) || !get_numbers(record, "length", 1, &o->length) ||
-        !get_numbers(record, "grid", 2, grid) || !get_model(record, &o->model) ||
-        !record_get_array(record, INITIAL, &rows, &columns, &o->initial) ||
-        !record_get_array(record, ENDS, &rows, &columns, &o->ends) ||
-        !record_get_array(record, MAP, &rows, &columns, &o->map) ||
-        !record_get_array(record, "volume.gradient", &rows, &columns, &o->gradient))
+        !get_model(record, &o->model))
         return false;
-    for (int k = 0; k < 2; k++)
-        o->grid[k] = (size_t)grid[k];
-    if (o->gradient && rows * columns != galv_model_modes(o->model))
-        return core_fail("'volume.gradient' has %zu numbers, expected %zu", rows * columns,
-                         galv_model_modes(o->model));
+    size_t modes = galv_model_modes(o->model), points = galv_model_points(o->model);
+    size_t initial[2] = {0, modes}, ends[2] = {2 * modes, 3 * points}, map[2] = {modes, 0};
+    size_t gradient[2] = {1, modes};
+    if (!get_grid(record, points, o->grid) || !get_block(record, INITIAL, initial, &o->initial) ||
+        !get_block(record, ENDS, ends, &o->ends) || !get_block(record, MAP, map, &o->map) ||
+        !get_block(record, "volume.gradient", gradient, &o->gradient))
+        return false;
+    o->n_initial = initial[0];
+    o->n_parameters = map[1];
+    if (!(o->length > 0 && isfinite(o->length)))
+        return core_fail("'length' is damaged");
     return (o->configuration && *o->configuration) || core_fail("it has no configuration");
 }
 

@@ -22,9 +22,10 @@ struct origin {
     igabem_options solver; /* as frozen on the parent */
     galv_model *model;
     double *gradient; /* of the volume, modes numbers, or NULL */
-    double *initial;  /* of a search, search.initial x modes numbers, or NULL */
+    double *initial;  /* of a search, n_initial x modes numbers, or NULL */
     double *ends;     /* problem.ends, or NULL */
-    double *map;      /* problem.map, or NULL */
+    double *map;      /* problem.map, modes x n_parameters numbers, or NULL */
+    size_t n_initial, n_parameters;
     size_t grid[2];
     double length;
 };
