@@ -143,7 +143,7 @@ search: {evaluations: 2, initial: 2, seed: 1}
         prepare("hullopt", "run", "small.yaml", "--out", "out")
         KINDS["run-db"] = (read("out/run.db"), "out/run.db", [("hullopt", "status", "out"), ("hullopt", "report", "out")])
     KEEP = os.environ.get("FUZZ_KEEP")
-    FOUND = os.path.join(SOURCE, "tests", "fuzz", "found")
+    FOUND = os.path.join(SOURCE, "tests", "fuzz", "found", "commands")
     failures = 0
     for name in sorted(os.listdir(FOUND)) if os.path.isdir(FOUND) else []:
         with open(os.path.join(FOUND, name), "rb") as stream:
