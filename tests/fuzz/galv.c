@@ -6,6 +6,7 @@
 #include "target.h"
 
 #include <galv/galv.h>
+#include <nurbs/nurbs.h>
 
 #include <stdlib.h>
 
@@ -44,16 +45,28 @@ static void read_model(const char *path, size_t n, const uint8_t *bytes)
     model_file_free(&file);
 }
 
+/* For points alone, and for those of a grid on a bilinear patch, whose control points may be moved.
+ */
 static void read_shape(const char *path, size_t n, const uint8_t *bytes)
 {
     (void)n, (void)bytes;
     enum { POINTS = 4 };
-    static const double xyz[3 * POINTS] = {0, 0, 0, 1, 0, -0.1, 0, 0.1, -0.05, 0.5, 0.05, 0};
-    double d[3 * POINTS];
-    galv_shape *shape = shape_yaml_read(path, POINTS, xyz);
-    if (shape && galv_shape_displace(shape, POINTS, xyz, galv_shape_upper(shape), d) == GALV_OK)
-        demand_finite(3 * POINTS, d, "a displacement");
-    galv_shape_free(shape);
+    static const double xyz[3 * POINTS] = {0, 0.1, 0, 0, 0.1, -0.1, 1, 0.1, 0, 1, 0.1, -0.1};
+    static const double knots[] = {0, 0, 1, 1}, ends[] = {0, 1};
+    nurbs_surface *surface = NULL;
+    demand(nurbs_surface_create((const int[]){1, 1}, (const size_t[]){2, 2}, knots, knots, xyz,
+                                NULL, &surface) == NURBS_OK,
+           "a surface can be made");
+    const struct shape_points points[] = {{.n = POINTS, .xyz = xyz},
+                                          {POINTS, xyz, surface, 2, 2, ends, ends}};
+    for (size_t i = 0; i < 2; i++) {
+        double d[3 * POINTS];
+        galv_shape *shape = shape_yaml_read(path, &points[i]);
+        if (shape && galv_shape_displace(shape, POINTS, xyz, galv_shape_upper(shape), d) == GALV_OK)
+            demand_finite(3 * POINTS, d, "a displacement");
+        galv_shape_free(shape);
+    }
+    nurbs_surface_free(surface);
 }
 
 static void read_hull(const char *path, size_t n, const uint8_t *bytes)
