@@ -109,12 +109,19 @@ static double share_of(const struct edge_point *p, int key, double coordinate)
     return fmin(1.0, fmax(0.0, share));
 }
 
+const struct edge_point *edge_before(const struct edge *edge, double coordinate, double *share)
+{
+    const struct edge_point *p = before(edge, coordinate);
+    *share = share_of(p, edge->key, coordinate);
+    return p;
+}
+
 void edge_at(const struct edge *edge, double coordinate, double at[3])
 {
     if (!edge->n)
         return;
-    const struct edge_point *p = before(edge, coordinate);
-    double share = share_of(p, edge->key, coordinate);
+    double share;
+    const struct edge_point *p = edge_before(edge, coordinate, &share);
     for (int c = 0; c < 3; c++)
         at[c] = p[0].at[c] + share * (p[1].at[c] - p[0].at[c]);
 }
@@ -122,10 +129,10 @@ void edge_at(const struct edge *edge, double coordinate, double at[3])
 igabem_status edge_locate(const struct edge *edge, const struct density *density, double coordinate,
                           size_t *patch, double uv[2])
 {
-    const struct edge_point *p = before(edge, coordinate);
+    double share;
+    const struct edge_point *p = edge_before(edge, coordinate, &share);
     int key = edge->key;
     bool between = p[0].patch == p[1].patch && p[1].at[key] > p[0].at[key];
-    double share = share_of(p, key, coordinate);
     if (!between)
         p += share > 0.5;
     *patch = p->patch;

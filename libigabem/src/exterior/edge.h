@@ -27,6 +27,10 @@ void edge_free(struct edge *edge);
 /* The point at a coordinate, which is taken into the range; nothing without points. */
 void edge_at(const struct edge *edge, double coordinate, double at[3]);
 
+/* The point at or before a coordinate, not the very last, and where the coordinate lies between
+ * that and the next: in [0,1]. */
+const struct edge_point *edge_before(const struct edge *edge, double coordinate, double *share);
+
 /* Patch and parameters there. */
 igabem_status edge_locate(const struct edge *edge, const struct density *density, double coordinate,
                           size_t *patch, double uv[2]);

@@ -35,6 +35,11 @@ static double growth(double sum, double ny)
     return low;
 }
 
+double free_surface_offset(const struct free_surface *surface, double eta)
+{
+    return surface->first * series(surface->growth, eta);
+}
+
 double free_surface_breadth(const struct free_surface *surface, double x)
 {
     const struct edge *waterline = &surface->waterline;
@@ -86,7 +91,7 @@ static const double *fill_net(const struct free_surface *surface, size_t i, size
         double x = surface->x0 - surface->dx * ((double)i + a / 3.0);
         double breadth = free_surface_breadth(surface, x);
         for (int b = 0; b < SIDE; b++) {
-            double s = surface->first * series(surface->growth, (double)j + b / 3.0);
+            double s = free_surface_offset(surface, (double)j + b / 3.0);
             point[a][b][0] = x;
             point[a][b][1] = breadth * (1.0 - s / all) + s;
             point[a][b][2] = 0.0;

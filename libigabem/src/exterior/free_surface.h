@@ -40,6 +40,9 @@ igabem_status free_surface_create(const struct free_surface_rule *rule,
 /* Half breadth of the hull at x; ahead and aft of it that of the inner edge of the grid. */
 double free_surface_breadth(const struct free_surface *surface, double x);
 
+/* S(eta). */
+double free_surface_offset(const struct free_surface *surface, double eta);
+
 void free_surface_free(struct free_surface *surface);
 
 /* y in cell coordinates; two_eta = 2 eta is a whole number. */

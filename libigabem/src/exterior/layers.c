@@ -114,8 +114,8 @@ static bool is_home(const struct layer_point *point, size_t element)
     return false;
 }
 
-static void look(const struct layer_surface *surface, const struct layer_point *point, int images,
-                 const double image[4][3], struct layer_work *work)
+void layer_look(const struct layer_surface *surface, const struct layer_point *point, int images,
+                const double image[4][3], struct layer_work *work)
 {
     const struct influence *influence = surface->influence;
     const struct mesh *mesh = influence->mesh;
@@ -169,11 +169,9 @@ static void add_far(const struct layer_surface *surface, int images, const doubl
     }
 }
 
-static igabem_status add_near(const struct layer_surface *surface, const struct layer_point *point,
-                              int i, const double image[3], struct layer_work *work,
-                              struct layer_rows *rows)
+void layer_near_nodes(const struct layer_surface *surface, const struct layer_point *point, int i,
+                      const double image[3], struct layer_work *work)
 {
-    static const double origin[3] = {0.0, 0.0, 0.0};
     const struct influence *influence = surface->influence;
     const struct mesh *mesh = influence->mesh;
     const struct near_rule rule = {.point = {image[0], image[1], image[2]},
@@ -191,31 +189,57 @@ static igabem_status add_near(const struct layer_surface *surface, const struct 
             near_nodes(&rule, &domain, &work->nodes);
         }
     }
-    double factor = surface->flat ? 2.0 : 1.0;
-    igabem_status status = flush(work, &work->nodes, image, factor, rows);
-    /* Both kernels are weakly singular: the rule's principal value corrects nothing. */
-    for (size_t h = 0; h < point->homes && i == 0; h++) {
+}
+
+void layer_singular_nodes(const struct layer_surface *surface, const struct layer_point *point,
+                          struct layer_work *work)
+{
+    const struct influence *influence = surface->influence;
+    for (size_t h = 0; h < point->homes; h++) {
         double unused[3];
-        singular_nodes(&mesh->element[point->home[h]], point->local[h][0], point->local[h][1],
-                       singular_order(influence->tolerance), &influence->gauss, &work->singular,
-                       unused, NULL);
+        singular_nodes(&influence->mesh->element[point->home[h]], point->local[h][0],
+                       point->local[h][1], singular_order(influence->tolerance), &influence->gauss,
+                       &work->singular, unused, NULL);
     }
-    return status == IGABEM_OK ? flush(work, &work->singular, origin, factor, rows) : status;
+}
+
+static igabem_status add_near(const struct layer_surface *surface, const struct layer_point *point,
+                              int i, const double image[3], struct layer_work *work,
+                              struct layer_rows *rows)
+{
+    static const double origin[3] = {0.0, 0.0, 0.0};
+    double factor = surface->flat ? 2.0 : 1.0;
+    layer_near_nodes(surface, point, i, image, work);
+    igabem_status status = flush(work, &work->nodes, image, factor, rows);
+    if (i > 0 || status != IGABEM_OK)
+        return status;
+    /* Both kernels are weakly singular: the rule's principal value corrects nothing. */
+    layer_singular_nodes(surface, point, work);
+    return flush(work, &work->singular, origin, factor, rows);
+}
+
+int layer_images(const struct layer_surface *surface, const struct layer_point *point,
+                 double image[4][3], bool turned[4])
+{
+    int images = 0;
+    for (int i = 0; i < 4; i++) {
+        if ((i & 1 && !surface->symmetric) || (i & 2 && surface->flat))
+            continue;
+        turned[images] = i & 1;
+        image[images][0] = point->at[0];
+        image[images][1] = reflection_y[i] * point->at[1];
+        image[images++][2] = reflection_z[i] * point->at[2];
+    }
+    return images;
 }
 
 igabem_status layer_add(const struct layer_surface *surface, const struct layer_point *point,
                         struct layer_work *work, struct layer_rows *rows)
 {
     double image[4][3];
-    int images = 0;
-    for (int i = 0; i < 4; i++) {
-        if ((i & 1 && !surface->symmetric) || (i & 2 && surface->flat))
-            continue;
-        image[images][0] = point->at[0];
-        image[images][1] = reflection_y[i] * point->at[1];
-        image[images++][2] = reflection_z[i] * point->at[2];
-    }
-    look(surface, point, images, (const double(*)[3])image, work);
+    bool turned[4];
+    int images = layer_images(surface, point, image, turned);
+    layer_look(surface, point, images, (const double(*)[3])image, work);
     add_far(surface, images, (const double(*)[3])image, work, rows);
     igabem_status status = IGABEM_OK;
     for (int i = 0; i < images && status == IGABEM_OK; i++)
@@ -223,30 +247,32 @@ igabem_status layer_add(const struct layer_surface *surface, const struct layer_
     return status;
 }
 
-void layer_collocation(const struct influence *influence, size_t i, struct layer_point *point,
-                       double *row)
+void layer_place(const struct influence *influence, size_t i, struct layer_point *point)
 {
     const struct density *density = influence->density;
     const struct mesh *mesh = influence->mesh;
     size_t patch = density->owner[i];
     memset(point, 0, sizeof *point);
     memcpy(point->at, density->point + 3 * i, sizeof point->at);
-    for (size_t e = mesh->patch_base[patch]; e < mesh->patch_base[patch + 1]; e++) {
-        const struct element *element = &mesh->element[e];
-        double *local = point->local[point->homes];
-        if (point->homes == LAYER_HOMES || !element_contains(density, element, i, local))
-            continue;
-        point->home[point->homes++] = e;
-        if (point->homes > 1)
-            continue;
-        double bu[ELEMENT_SIDE], bv[ELEMENT_SIDE], value[ELEMENT_FUNCTIONS];
-        size_t m = (size_t)element->degree[0] + 1, n = (size_t)element->degree[1] + 1;
-        struct jet jet;
-        element_jet(element, local[0], local[1], &jet);
-        bernstein(element->degree[0], local[0], bu, NULL);
-        bernstein(element->degree[1], local[1], bv, NULL);
-        for (size_t k = 0; k < m * n; k++)
-            value[k] = 0.5 * bu[k / n] * bv[k % n] / jet.weight;
-        element_scatter(element, 1, value, row, 0);
-    }
+    for (size_t e = mesh->patch_base[patch]; e < mesh->patch_base[patch + 1]; e++)
+        if (point->homes < LAYER_HOMES &&
+            element_contains(density, &mesh->element[e], i, point->local[point->homes]))
+            point->home[point->homes++] = e;
+}
+
+void layer_collocation(const struct influence *influence, size_t i, struct layer_point *point,
+                       double *row)
+{
+    layer_place(influence, i, point);
+    const struct element *element = &influence->mesh->element[point->home[0]];
+    const double *local = point->local[0];
+    double bu[ELEMENT_SIDE], bv[ELEMENT_SIDE], value[ELEMENT_FUNCTIONS];
+    size_t m = (size_t)element->degree[0] + 1, n = (size_t)element->degree[1] + 1;
+    struct jet jet;
+    element_jet(element, local[0], local[1], &jet);
+    bernstein(element->degree[0], local[0], bu, NULL);
+    bernstein(element->degree[1], local[1], bv, NULL);
+    for (size_t k = 0; k < m * n; k++)
+        value[k] = 0.5 * bu[k / n] * bv[k % n] / jet.weight;
+    element_scatter(element, 1, value, row, 0);
 }

@@ -17,6 +17,8 @@ struct layer_point {
     double local[LAYER_HOMES][2];
 };
 
+/* A collocation point of the density and the elements that it lies on. */
+void layer_place(const struct influence *influence, size_t i, struct layer_point *point);
 /* A collocation point of the density, the elements that it lies on, and there half the basis, which
  * is added to the row: the solid angle of the other side. */
 void layer_collocation(const struct influence *influence, size_t i, struct layer_point *point,
@@ -47,6 +49,20 @@ igabem_status layer_work_create(const struct layer_surface *surface, struct laye
 void layer_work_free(struct layer_work *work);
 /* Room in kernel for two numbers a node; false: no memory, for them or for the nodes. */
 bool layer_work_reserve(struct layer_work *work, const struct nodes *nodes);
+
+/* The point and its reflections, which stand for the images of the surface: fills image[4][3] and
+ * whether y is turned round in it, returns their number. The first is the point itself. */
+int layer_images(const struct layer_surface *surface, const struct layer_point *point,
+                 double image[4][3], bool turned[4]);
+/* Which panels see which images from afar, by which rules: fills far and class of the work. */
+void layer_look(const struct layer_surface *surface, const struct layer_point *point, int images,
+                const double image[4][3], struct layer_work *work);
+/* Appends the nodes of the others, seen by image i, to the work's; of the point's own elements not
+ * for the point itself: those are its singular ones, relative to the point. */
+void layer_near_nodes(const struct layer_surface *surface, const struct layer_point *point, int i,
+                      const double image[3], struct layer_work *work);
+void layer_singular_nodes(const struct layer_surface *surface, const struct layer_point *point,
+                          struct layer_work *work);
 
 /* Adds the rows of a point. */
 igabem_status layer_add(const struct layer_surface *surface, const struct layer_point *point,

@@ -66,6 +66,12 @@ struct target {
     double *row;
     const double *phi; /* NULL: the row */
     double sum;
+    struct jumps *jumps; /* collect these instead; NULL: do not */
+};
+
+/* Factors J and K of a row at bow and stern, [2][ny], bow first. */
+struct jumps {
+    double slope, bend;
 };
 
 static void add_unknown(struct target *target, long column, double factor)
@@ -98,7 +104,7 @@ static void add_coefficient(struct target *target, long i, long j, double factor
     const struct free_surface *surface = target->surface;
     long ny = (long)surface->ny, at = (i - 1) * ny;
     enum zone zone = zone_of(surface, i);
-    if (factor == 0.0)
+    if (factor == 0.0 || target->jumps)
         return;
     if (i < 1) {
         /* Linear upstream. */
@@ -123,27 +129,53 @@ static void add_coefficient(struct target *target, long i, long j, double factor
     }
 }
 
-/* Derivatives of eta(x, y) at the middle of the first (place 0), middle or last line of cell
- * (i, j), from within the cell, and the first two of y(eta). */
+/* Derivatives of y(x, eta) at the middle of the first (place 0), middle or last line of a cell,
+ * from y at its half cells. */
+struct slopes {
+    double x, xx, xe, e, ee;
+};
+
+static struct slopes slopes_at(double dx, size_t place, const double y[3][3])
+{
+    static const double first[3][3] = {{-3.0, 4.0, -1.0}, {-1.0, 0.0, 1.0}, {1.0, -4.0, 3.0}};
+    double yx[3] = {0.0, 0.0, 0.0};
+    for (size_t a = 0; a < 3; a++)
+        for (size_t b = 0; b < 3; b++)
+            yx[b] -= first[place][a] * y[a][b] / dx;
+    const double *at = y[place];
+    return (struct slopes){.x = yx[1],
+                           .xx = 4.0 * (y[2][1] - 2.0 * y[1][1] + y[0][1]) / (dx * dx),
+                           .xe = yx[2] - yx[0],
+                           .e = at[2] - at[0],
+                           .ee = 4.0 * (at[2] - 2.0 * at[1] + at[0])};
+}
+
+/* Derivatives of eta(x, y) there, and the first two of y(eta). */
 struct lines {
     double ex, exx, exe, ye, yee;
 };
 
+static struct slopes cell_slopes(const struct free_surface *surface, size_t i, size_t j,
+                                 size_t place)
+{
+    double y[3][3];
+    for (size_t a = 0; a < 3; a++)
+        for (size_t b = 0; b < 3; b++)
+            y[a][b] = free_surface_y(surface, (double)i + 0.5 * (double)a, 2 * j + b);
+    return slopes_at(surface->dx, place, (const double(*)[3])y);
+}
+
+static struct lines lines_of(const struct slopes *y)
+{
+    double ex = -y->x / y->e;
+    return (struct lines){ex, -(y->xx + 2.0 * ex * y->xe + ex * ex * y->ee) / y->e,
+                          -(y->xe + ex * y->ee) / y->e, y->e, y->ee};
+}
+
 static struct lines lines_at(const struct free_surface *surface, size_t i, size_t j, size_t place)
 {
-    static const double first[3][3] = {{-3.0, 4.0, -1.0}, {-1.0, 0.0, 1.0}, {1.0, -4.0, 3.0}};
-    double y[3][3], dx = surface->dx, yx[3] = {0.0, 0.0, 0.0};
-    for (size_t a = 0; a < 3; a++)
-        for (size_t b = 0; b < 3; b++) {
-            y[a][b] = free_surface_y(surface, (double)i + 0.5 * (double)a, 2 * j + b);
-            yx[b] -= first[place][a] * y[a][b] / dx;
-        }
-    const double *at = y[place];
-    double ye = at[2] - at[0], yee = 4.0 * (at[2] - 2.0 * at[1] + at[0]), yxe = yx[2] - yx[0];
-    double yxx = 4.0 * (y[2][1] - 2.0 * y[1][1] + y[0][1]) / (dx * dx);
-    double ex = -yx[1] / ye;
-    return (struct lines){ex, -(yxx + 2.0 * ex * yxe + ex * ex * yee) / ye, -(yxe + ex * yee) / ye,
-                          ye, yee};
+    const struct slopes y = cell_slopes(surface, i, j, place);
+    return lines_of(&y);
 }
 
 /* Adds slope times J and bend times K of row j, the jumps of F_xi and F_xi,xi over (xi, eta) at the
@@ -154,6 +186,12 @@ static struct lines lines_at(const struct free_surface *surface, size_t i, size_
 static void add_jump(struct target *target, size_t i, size_t j, double slope, double bend)
 {
     const struct free_surface *surface = target->surface;
+    if (target->jumps) {
+        struct jumps *to = &target->jumps[(i == surface->bow ? 0 : surface->ny) + j];
+        to->slope += slope;
+        to->bend += bend;
+        return;
+    }
     struct lines a = lines_at(surface, i - 1, j, 2), b = lines_at(surface, i, j, 0);
     double dx = surface->dx, ex = b.ex - a.ex;
     double plain =
@@ -235,10 +273,12 @@ static void odd_row(struct target *target, const struct across *across,
     add_product(target, i, j, d[0], across->first_sixth, twice * (w[0] * at.ex + w[1] / at.ye));
 }
 
+/* Linearised about the free stream. */
+static const struct base_point stream = {{0.0, 0.0}, {0.0, 0.0, 0.0}};
+
 igabem_status operator_create(const struct free_surface *surface, const struct base_point *base,
                               struct surface_operator *result)
 {
-    static const struct base_point stream = {{0.0, 0.0}, {0.0, 0.0, 0.0}};
     size_t nx = surface->nx, ny = surface->ny, n = nx * ny, room[3] = {0, 0, 0};
     size_t columns = n + surface->stern - surface->bow;
     struct across across;
@@ -305,6 +345,172 @@ void operator_gradient(const struct free_surface *surface, const struct free_sur
         }
     gradient[0] = along.sum + place->eta_x * across.sum;
     gradient[1] = place->eta_y * across.sum;
+}
+
+void operator_apply(const struct free_surface *surface, const double *phi, double *value,
+                    double *second, double *odd)
+{
+    struct across across;
+    fill_across(&across);
+    for (size_t c = 0; c < surface->nx * surface->ny; c++) {
+        size_t i = c / surface->ny, j = c % surface->ny;
+        struct target to[3] = {{.surface = surface, .phi = phi}};
+        to[1] = to[2] = to[0];
+        add_product(&to[0], i, j, spline_along[0], across.value, 1.0);
+        second_row(&to[1], &across, &stream, i, j);
+        odd_row(&to[2], &across, &stream, i, j);
+        value[c] = to[0].sum;
+        second[c] = to[1].sum;
+        odd[c] = to[2].sum;
+    }
+}
+
+/* What a change of the breadth at three half cells does to the lines at a place of a cell. */
+static struct lines change_lines(const struct free_surface *surface, size_t j, size_t place,
+                                 const struct slopes *y, const double breadth[3])
+{
+    double change[3][3], all = surface->offset[2 * surface->ny];
+    for (size_t a = 0; a < 3; a++)
+        for (size_t b = 0; b < 3; b++)
+            change[a][b] = breadth[a] * (1.0 - surface->offset[2 * j + b] / all);
+    const struct slopes d = slopes_at(surface->dx, place, (const double(*)[3])change);
+    const struct lines at = lines_of(y);
+    double ex = -(d.x + at.ex * d.e) / y->e;
+    double exx = -(d.xx + 2.0 * (ex * y->xe + at.ex * d.xe + at.ex * ex * y->ee) +
+                   at.ex * at.ex * d.ee + at.exx * d.e) /
+                 y->e;
+    double exe = -(d.xe + ex * y->ee + at.ex * d.ee + at.exe * d.e) / y->e;
+    return (struct lines){ex, exx, exe, d.e, d.ee};
+}
+
+/* Of a row at bow or stern: what J and K are multiplied by, F_eta and twice the jump of F_eta, and
+ * what the first of the changes of breadth does to J's and K's factors (add_jump()). */
+struct turn {
+    double plain, mixed;
+    double *change; /* [3][count]: of slope plain, bend plain, bend mixed */
+};
+
+static void fill_turn(const struct free_surface *surface, const double *phi, size_t i, size_t j,
+                      size_t count, const double *breadth, struct turn *turn)
+{
+    struct target side[2] = {{.surface = surface, .phi = phi}, {.surface = surface, .phi = phi}};
+    const struct slopes ya = cell_slopes(surface, i - 1, j, 2), yb = cell_slopes(surface, i, j, 0);
+    const struct lines a = lines_of(&ya), b = lines_of(&yb);
+    double dx = surface->dx;
+    for (long l = 0; l < ALONG; l++)
+        for (long k = 0; k < 2; k++)
+            add_coefficient(&side[k], (long)i - 1 + k, (long)j + l - 2, spline_along[1][l]);
+    turn->plain = 0.5 * (side[0].sum + side[1].sum);
+    turn->mixed = side[1].sum - side[0].sum;
+    for (size_t f = 0; f < count; f++) {
+        double at[2][3];
+        for (size_t s = 0; s < 3; s++) {
+            at[0][s] = breadth[(2 * i - 2 + s) * count + f];
+            at[1][s] = breadth[(2 * i + s) * count + f];
+        }
+        struct lines da = change_lines(surface, j, 2, &ya, at[0]);
+        struct lines db = change_lines(surface, j, 0, &yb, at[1]);
+        turn->change[f] = dx * (db.ex - da.ex);
+        turn->change[count + f] = dx * dx *
+                                  ((da.ex + db.ex) * (b.exe - a.exe) +
+                                   (a.ex + b.ex) * (db.exe - da.exe) - (db.exx - da.exx));
+        turn->change[2 * count + f] = 2.0 * dx * (db.ex - da.ex);
+    }
+}
+
+/* Adds what the turns' changes do to a row whose jumps were collected, which are cleared. */
+static void add_turns(size_t rows, size_t count, const struct turn *turn, struct jumps *jumps,
+                      double *out)
+{
+    for (size_t r = 0; r < rows; r++) {
+        double slope = jumps[r].slope, bend = jumps[r].bend;
+        if (slope == 0.0 && bend == 0.0)
+            continue;
+        const double *d = turn[r].change;
+        for (size_t f = 0; f < count; f++)
+            out[f] += (slope * d[f] + bend * d[count + f]) * turn[r].plain +
+                      bend * d[2 * count + f] * turn[r].mixed;
+        jumps[r] = (struct jumps){0.0, 0.0};
+    }
+}
+
+/* The explicit factors of second_row() and odd_row(), for the free stream. */
+static void change_factors(const struct free_surface *surface, const struct across *across,
+                           const double *phi, size_t i, size_t j, size_t count,
+                           const double *breadth, double *second, double *odd)
+{
+    const double(*d)[ALONG] = i + 1 < surface->nx ? spline_along : spline_last, dx = surface->dx;
+    const double *const b[5] = {across->first, across->second, across->first, across->value_sixth,
+                                across->first_sixth};
+    const double *const a[5] = {d[1], d[0], d[0], d[1], d[0]};
+    const struct slopes y = cell_slopes(surface, i, j, 1);
+    const struct lines at = lines_of(&y);
+    double sum[5], twice = 1.0 / (64.0 * sqrt(PI * at.ye));
+    for (int k = 0; k < 5; k++) {
+        struct target target = {.surface = surface, .phi = phi};
+        add_product(&target, i, j, a[k], b[k], 1.0);
+        sum[k] = target.sum;
+    }
+    for (size_t f = 0; f < count; f++) {
+        const double at_half[3] = {breadth[2 * i * count + f], breadth[(2 * i + 1) * count + f],
+                                   breadth[(2 * i + 2) * count + f]};
+        const struct lines e = change_lines(surface, j, 1, &y, at_half);
+        double fall = -0.5 * twice * e.ye / at.ye;
+        second[f] += -2.0 * e.ex / dx * sum[0] + 2.0 * at.ex * e.ex * sum[1] + e.exx * sum[2];
+        odd[f] += fall / dx * sum[3] - (fall * at.ex + twice * e.ex) * sum[4];
+    }
+}
+
+/* Whether the stencils about a cell reach across a line of the grid. */
+static bool sees(size_t i, size_t line)
+{
+    return i + 2 >= line && i <= line + 1;
+}
+
+igabem_status operator_change(const struct free_surface *surface, const double *phi, size_t count,
+                              const double *breadth, double *value, double *second, double *odd)
+{
+    size_t nx = surface->nx, ny = surface->ny, rows = surface->waterline.n ? 2 * ny : 0;
+    const size_t line[2] = {surface->bow, surface->stern};
+    struct across across;
+    fill_across(&across);
+    struct jumps *jumps = calloc(2 * ny, sizeof *jumps);
+    struct turn *turn = calloc(2 * ny, sizeof *turn);
+    double *change = malloc((6 * ny * count + 1) * sizeof *change);
+    bool complete = jumps && turn && change;
+    for (size_t r = 0; r < rows && complete; r++) {
+        turn[r].change = change + 3 * count * r;
+        fill_turn(surface, phi, line[r / ny], r % ny, count, breadth, &turn[r]);
+    }
+    for (size_t c = 0; c < nx * ny && complete; c++) {
+        size_t i = c / ny, j = c % ny;
+        double *v = value + c * count, *s = second + c * count, *o = odd + c * count;
+        for (size_t f = 0; f < count; f++)
+            v[f] = s[f] = o[f] = 0.0;
+        change_factors(surface, &across, phi, i, j, count, breadth, s, o);
+        if (rows == 0 || !(sees(i, line[0]) || sees(i, line[1])))
+            continue;
+        struct target target = {.surface = surface, .jumps = jumps};
+        add_product(&target, i, j, spline_along[0], across.value, 1.0);
+        add_turns(rows, count, turn, jumps, v);
+        second_row(&target, &across, &stream, i, j);
+        add_turns(rows, count, turn, jumps, s);
+        odd_row(&target, &across, &stream, i, j);
+        add_turns(rows, count, turn, jumps, o);
+    }
+    free(jumps);
+    free(turn);
+    free(change);
+    return complete ? IGABEM_OK : no_memory();
+}
+
+void operator_interpolate(const struct free_surface *surface, double *values, double *scratch)
+{
+    size_t nx = surface->nx, ny = surface->ny, columns = surface->columns;
+    for (size_t i = 1; i <= nx; i++)
+        spline_interpolate(ny, values + i * columns, 1, scratch);
+    for (size_t j = 0; j < ny + 2; j++)
+        spline_interpolate(nx, values + j, columns, scratch);
 }
 
 void operator_fold(const struct free_surface *surface, double *coefficients, double *scratch)

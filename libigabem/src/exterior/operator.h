@@ -43,6 +43,20 @@ void operator_gradient(const struct free_surface *surface, const struct free_sur
 
 void operator_free(struct surface_operator *operator_);
 
+/* Value, second and odd of phi, which is the unknowns and after them the hull's edge, about the
+ * free stream: fills three arrays [cells]. */
+void operator_apply(const struct free_surface *surface, const double *phi, double *value,
+                    double *second, double *odd);
+
+/* What `count` changes breadth[2 nx + 1][count] of the inner edge, at every half cell, change in
+ * them while phi stays: fills three arrays [cells][count]. */
+igabem_status operator_change(const struct free_surface *surface, const double *phi, size_t count,
+                              const double *breadth, double *value, double *second, double *odd);
+
+/* The spline's coefficients from its values at the middles of the cells, which lie as below, in
+ * place. */
+void operator_interpolate(const struct free_surface *surface, double *values, double *scratch);
+
 /* Turns factors of the coefficients of phi_xx, (nx + 2) (ny + 2) in rows of surface->columns, into
  * factors of its values at the middles of the cells: that of cell (i, j) is then at
  * (i + 1) columns + j + 1. scratch has room for nx and ny. */

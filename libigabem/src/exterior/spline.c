@@ -45,6 +45,22 @@ void spline_fold(size_t n, double *factor, size_t step, double *scratch)
         x[k * step] -= ratio[k] * x[(k + 1) * step];
 }
 
+void spline_interpolate(size_t n, double *value, size_t step, double *scratch)
+{
+    double *c = value, *x = value + step, *ratio = scratch;
+    for (size_t k = 0; k < n; k++) {
+        bool end = k == 0 || k == n - 1;
+        double diagonal = end ? 1.0 : 0.75, side = end ? 0.0 : 0.125;
+        double pivot = diagonal - (k ? side * ratio[k - 1] : 0.0);
+        ratio[k] = side / pivot;
+        x[k * step] = (x[k * step] - (k ? side * x[(k - 1) * step] : 0.0)) / pivot;
+    }
+    for (size_t k = n - 1; k-- > 0;)
+        x[k * step] -= ratio[k] * x[(k + 1) * step];
+    c[0] = 2.0 * c[step] - c[2 * step];
+    c[(n + 1) * step] = 2.0 * c[n * step] - c[(n - 1) * step];
+}
+
 struct mesh *spline_mesh(size_t elements)
 {
     struct mesh *mesh = calloc(1, sizeof *mesh);

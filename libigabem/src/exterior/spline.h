@@ -22,6 +22,9 @@ void spline_evaluate(double s, double value[3], double derivative[3]);
  * `step` apart. scratch[n]. */
 void spline_fold(size_t n, double *factor, size_t step, double *scratch);
 
+/* The interpolation: values, from the second on, become the n + 2 coefficients, in place. */
+void spline_interpolate(size_t n, double *value, size_t step, double *scratch);
+
 /* A mesh of bicubic elements, one per panel, to be filled; NULL: no memory. */
 struct mesh *spline_mesh(size_t elements);
 

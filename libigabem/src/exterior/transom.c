@@ -209,6 +209,12 @@ void transom_fold(const struct transom *transom, double *coefficients, double *s
         spline_fold(transom->cells, coefficients + j, transom->stride, scratch);
 }
 
+void transom_interpolate(const struct transom *transom, double *values, double *scratch)
+{
+    for (size_t j = 0; j < transom->n; j++)
+        spline_interpolate(transom->cells, values + j, transom->stride, scratch);
+}
+
 /* phi_x of a column. */
 static double column_slope(const struct transom *transom, size_t j, double xi, const double *phi)
 {

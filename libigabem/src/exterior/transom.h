@@ -40,6 +40,9 @@ void transom_free(struct transom *transom);
  * that of cell (i, j) is then at (i + 1) stride + j. */
 void transom_fold(const struct transom *transom, double *coefficients, double *scratch);
 
+/* The coefficients of the spline through values, which lie as above, in place. */
+void transom_interpolate(const struct transom *transom, double *values, double *scratch);
+
 /* phi_x at a place of the strip; phi: the unknowns, phi of the rim, its slope. */
 double transom_slope(const struct transom *transom, double x, double y, const double *phi);
 

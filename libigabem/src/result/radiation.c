@@ -34,15 +34,13 @@ static igabem_status rim_values(const igabem_solution *solution, double y, doubl
                   : density_evaluate(solution->density, patch, 1, solution->sigma, 1, uv, phi);
 }
 
-/* Part p of the face and of its upper edge, where nu = -e_x, by a rule of so many points. */
-enum { ACROSS = 3, UP = 12 };
-
+/* Part p of the face and of its upper edge, where nu = -e_x. */
 static igabem_status fill_face(const igabem_solution *solution, size_t p, const struct gauss *gauss,
                                struct nodes *nodes, double (*surface)[7], double (*line)[4])
 {
     const struct transom *transom = solution->transom;
     const double whole[4] = {0.0, 1.0, 0.0, 1.0};
-    const int points[2] = {ACROSS, UP};
+    const int points[2] = {FACE_ACROSS, FACE_UP};
     double width = transom->breadth / (double)transom->face->n;
     struct domain domain;
     domain_whole(&transom->face->element[p], &domain);
@@ -50,9 +48,9 @@ static igabem_status fill_face(const igabem_solution *solution, size_t p, const 
     cell_nodes(&domain, whole, points, gauss, nodes);
     if (nodes->failed)
         return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for the face of the transom");
-    for (size_t i = 0; i < ACROSS; i++) {
-        double y = width * ((double)p + gauss->node[ACROSS][i]), phi, slope;
-        double dl = width * gauss->weight[ACROSS][i] / solution->k0;
+    for (size_t i = 0; i < FACE_ACROSS; i++) {
+        double y = width * ((double)p + gauss->node[FACE_ACROSS][i]), phi, slope;
+        double dl = width * gauss->weight[FACE_ACROSS][i] / solution->k0;
         igabem_status status = rim_values(solution, y, &phi, &slope);
         if (status)
             return status;
@@ -60,7 +58,7 @@ static igabem_status fill_face(const igabem_solution *solution, size_t p, const 
         line[i][1] = y;
         line[i][2] = dl * slope;
         line[i][3] = -dl * phi;
-        for (size_t k = i; k < nodes->n; k += ACROSS) {
+        for (size_t k = i; k < nodes->n; k += FACE_ACROSS) {
             const double *normal = nodes->normal + 3 * k;
             surface[k][0] = nodes->x[k];
             surface[k][1] = nodes->y[k];
@@ -80,17 +78,17 @@ static igabem_status add_face(const igabem_solution *solution, struct sources *s
     struct nodes nodes;
     nodes_init(&nodes, solution->transom->face);
     nodes.with_normals = true;
-    double(*surface)[7] = malloc(parts * ACROSS * UP * sizeof *surface);
-    double(*line)[4] = malloc(parts * ACROSS * sizeof *line);
+    double(*surface)[7] = malloc(parts * FACE_ACROSS * FACE_UP * sizeof *surface);
+    double(*line)[4] = malloc(parts * FACE_ACROSS * sizeof *line);
     igabem_status status =
         surface && line ? gauss_fill(&gauss)
                         : igabem_fail(IGABEM_ERROR_MEMORY, "no memory for the face of the transom");
     for (size_t p = 0; p < parts && status == IGABEM_OK; p++)
-        status =
-            fill_face(solution, p, &gauss, &nodes, surface + p * ACROSS * UP, line + p * ACROSS);
+        status = fill_face(solution, p, &gauss, &nodes, surface + p * FACE_ACROSS * FACE_UP,
+                           line + p * FACE_ACROSS);
     if (status == IGABEM_OK)
-        status = sources_append(sources, parts * ACROSS * UP, (const double(*)[7])surface,
-                                parts * ACROSS, (const double(*)[4])line);
+        status = sources_append(sources, parts * FACE_ACROSS * FACE_UP, (const double(*)[7])surface,
+                                parts * FACE_ACROSS, (const double(*)[4])line);
     free(surface);
     free(line);
     nodes_free(&nodes);

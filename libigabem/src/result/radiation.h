@@ -5,6 +5,9 @@
 #include "result/sources.h"
 #include "solve/solution.h"
 
+/* Points of the rule on an element of the face of a dry transom: across, and up from its rim. */
+enum { FACE_ACROSS = 3, FACE_UP = 12 };
+
 /* Which of the solution's densities. */
 enum radiation_cutoff { RADIATION_AS_SOLVED, RADIATION_LOWER, RADIATION_UPPER, RADIATION_CHANGE };
 

@@ -52,7 +52,8 @@ static const igabem_formulation_row table[] = {
                                          "1/r alone",
                                      .solves = true,
                                      .pressure = true,
-                                     .potential = true},
+                                     .potential = true,
+                                     .tangents = true},
     /* Dawson 1977; Nakos and Sclavounos 1990. */
     [IGABEM_FORMULATION_DOUBLE_MODEL] = {.name = "double-model",
                                          .sentence = "the same, linearised about the double-body "

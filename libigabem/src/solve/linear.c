@@ -65,11 +65,18 @@ static lapack_int factor(struct progress *progress, lapack_int order, double *a,
     return info;
 }
 
-static igabem_status factored_solve(const struct matrix *matrix, double norm, lapack_int *pivots,
-                                    size_t count, double *right, double *condition)
+igabem_status linear_lu_factor(const struct matrix *matrix, int *pivots, double *condition)
 {
-    double reciprocal = 0.0, *a = matrix->rows;
+    igabem_status status = check_size(matrix->stride);
+    if (status != IGABEM_OK)
+        return status;
     lapack_int order = (lapack_int)matrix->n, stride = (lapack_int)matrix->stride;
+    /* Row-major storage is the transpose of LAPACK's, whose inf-norm is our 1-norm. */
+    double *a = matrix->rows, norm = LAPACKE_dlange(LAPACK_COL_MAJOR, 'I', order, order, a, stride);
+    status = check_norm(norm);
+    if (status != IGABEM_OK)
+        return status;
+    double reciprocal = 0.0;
     lapack_int info = factor(matrix->progress, order, a, stride, pivots);
     if (progress_status(matrix->progress))
         return IGABEM_ERROR_CANCELLED;
@@ -77,14 +84,24 @@ static igabem_status factored_solve(const struct matrix *matrix, double norm, la
         info = LAPACKE_dgecon(LAPACK_COL_MAJOR, 'I', order, a, stride, norm, &reciprocal);
         *condition = 1.0 / reciprocal;
     }
-    if (info == 0)
-        info = LAPACKE_dgetrs(LAPACK_COL_MAJOR, 'T', order, (lapack_int)count, a, stride, pivots,
-                              right, order);
+    return info == 0 ? IGABEM_OK : igabem_fail_lapack("solution for the source density", info);
+}
+
+igabem_status linear_lu_solve(const struct matrix *factors, const int *pivots, bool transposed,
+                              size_t count, double *right)
+{
+    size_t n = factors->n;
+    igabem_status status = check_size(count);
+    if (status != IGABEM_OK)
+        return status;
+    lapack_int info =
+        LAPACKE_dgetrs(LAPACK_COL_MAJOR, transposed ? 'N' : 'T', (lapack_int)n, (lapack_int)count,
+                       factors->rows, (lapack_int)factors->stride, pivots, right, (lapack_int)n);
     if (info != 0)
         return igabem_fail_lapack("solution for the source density", info);
-    for (size_t i = 0; i < matrix->n * count; i++)
+    for (size_t i = 0; i < n * count; i++)
         if (!isfinite(right[i]))
-            return igabem_fail(IGABEM_ERROR_NUMERIC, "unknown %zu is not finite", i % matrix->n);
+            return igabem_fail(IGABEM_ERROR_NUMERIC, "unknown %zu is not finite", i % n);
     return IGABEM_OK;
 }
 
@@ -96,19 +113,12 @@ igabem_status linear_lu(const struct matrix *matrix, double *right, double *cond
 igabem_status linear_lu_many(const struct matrix *matrix, size_t count, double *right,
                              double *condition)
 {
-    size_t n = matrix->n;
-    igabem_status status = check_size(matrix->stride > count ? matrix->stride : count);
-    if (status != IGABEM_OK)
-        return status;
-    lapack_int order = (lapack_int)n, stride = (lapack_int)matrix->stride;
-    lapack_int *pivots = malloc(n * sizeof *pivots);
+    int *pivots = malloc(matrix->n * sizeof *pivots);
     if (!pivots)
-        return igabem_fail(IGABEM_ERROR_MEMORY, "no memory to solve for %zu unknowns", n);
-    /* Row-major storage is the transpose of LAPACK's, whose inf-norm is our 1-norm. */
-    double *a = matrix->rows, norm = LAPACKE_dlange(LAPACK_COL_MAJOR, 'I', order, order, a, stride);
-    status = check_norm(norm);
+        return igabem_fail(IGABEM_ERROR_MEMORY, "no memory to solve for %zu unknowns", matrix->n);
+    igabem_status status = linear_lu_factor(matrix, pivots, condition);
     if (status == IGABEM_OK)
-        status = factored_solve(matrix, norm, pivots, count, right, condition);
+        status = linear_lu_solve(matrix, pivots, false, count, right);
     free(pivots);
     return status;
 }

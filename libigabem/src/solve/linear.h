@@ -20,6 +20,12 @@ igabem_status linear_lu(const struct matrix *matrix, double *right, double *cond
 igabem_status linear_lu_many(const struct matrix *matrix, size_t count, double *right,
                              double *condition);
 
+/* Factors in place of the matrix, with which linear_lu_solve() solves: matrix x = right, or with
+ * its transpose, for `count` right-hand sides, each contiguous. pivots[n]. */
+igabem_status linear_lu_factor(const struct matrix *matrix, int *pivots, double *condition);
+igabem_status linear_lu_solve(const struct matrix *factors, const int *pivots, bool transposed,
+                              size_t count, double *right);
+
 /* What iterations need besides the matrix, which stays as it is and is borrowed. */
 struct iteration;
 

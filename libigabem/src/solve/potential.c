@@ -163,25 +163,86 @@ static igabem_status keep_base(const struct influence *influence,
                          &solution->base_velocity);
 }
 
+/* The matrix of a setting. */
+static void fill_rows(const struct exterior_system *system, const igabem_solution *solution,
+                      double *rows)
+{
+    double scale = 1.0 / solution->k0;
+    double damping = solution->options.surface_damping / sqrt(solution->k0);
+    for (size_t k = 0; k < system->n * system->n; k++)
+        rows[k] = system->fixed[k] - scale * system->wave[k] - damping * system->odd[k];
+}
+
+size_t potential_unknowns(const igabem_solution *solution)
+{
+    const struct free_surface *surface = solution->surface;
+    const struct transom *transom = solution->transom;
+    return solution->density->n + surface->nx * surface->ny +
+           (transom ? transom->cells * transom->n : 0);
+}
+
+igabem_status potential_factors(const struct influence *influence, const igabem_solution *solution,
+                                double **factors, int **pivots)
+{
+    struct exterior_system system = {0};
+    size_t n = potential_unknowns(solution);
+    *factors = malloc(n * n * sizeof **factors);
+    *pivots = malloc(n * sizeof **pivots);
+    igabem_status status = *factors && *pivots ? IGABEM_OK : solution_no_memory(n);
+    if (status == IGABEM_OK)
+        status = exterior_system_create(influence, solution->surface, solution->transom,
+                                        solution->formulation->double_model, &system);
+    if (status == IGABEM_OK) {
+        const struct matrix matrix = {n, n, *factors, influence->threads, influence->progress};
+        fill_rows(&system, solution, *factors);
+        status = linear_lu_factor(&matrix, *pivots, NULL);
+    }
+    exterior_system_free(&system);
+    if (status != IGABEM_OK) {
+        free(*factors);
+        free(*pivots);
+        *factors = NULL;
+        *pivots = NULL;
+    }
+    return status;
+}
+
+/* The factors for igabem_tangent_create(). */
+static igabem_status keep_factors(size_t n, const double *rows, const int *pivots,
+                                  igabem_solution *solution)
+{
+    solution->system = malloc(n * n * sizeof *rows);
+    solution->pivots = malloc(n * sizeof *pivots);
+    if (!solution->system || !solution->pivots)
+        return solution_no_memory(n);
+    memcpy(solution->system, rows, n * n * sizeof *rows);
+    memcpy(solution->pivots, pivots, n * sizeof *pivots);
+    solution->memory += (double)(n * n * sizeof *rows);
+    return IGABEM_OK;
+}
+
 static igabem_status solve_one(const struct influence *influence,
                                const struct exterior_system *system, double *rows,
                                igabem_solution *solution)
 {
     size_t n = system->n;
-    double scale = 1.0 / solution->k0;
-    double damping = solution->options.surface_damping / sqrt(solution->k0);
     double *right = malloc(n * sizeof *right);
-    if (!right)
-        return solution_no_memory(n);
-    for (size_t k = 0; k < n * n; k++)
-        rows[k] = system->fixed[k] - scale * system->wave[k] - damping * system->odd[k];
-    for (size_t i = 0; i < n; i++)
-        right[i] = solution->speed * (system->right[i] + solution->k0 * system->slope[i] -
-                                      system->known[i] / solution->k0);
+    int *pivots = malloc(n * sizeof *pivots);
     const struct matrix matrix = {n, n, rows, influence->threads, influence->progress};
-    igabem_status status = linear_lu(&matrix, right, &solution->condition);
+    igabem_status status = right && pivots ? IGABEM_OK : solution_no_memory(n);
+    if (status == IGABEM_OK) {
+        fill_rows(system, solution, rows);
+        for (size_t i = 0; i < n; i++)
+            right[i] = solution->speed * (system->right[i] + solution->k0 * system->slope[i] -
+                                          system->known[i] / solution->k0);
+        status = linear_lu_factor(&matrix, pivots, &solution->condition);
+    }
+    if (status == IGABEM_OK)
+        status = linear_lu_solve(&matrix, pivots, false, 1, right);
     solution->options.solver = IGABEM_SOLVER_LU;
     solution->memory = 4.0 * (double)(n * n * sizeof *rows);
+    if (status == IGABEM_OK && solution->options.keep_system != 0.0)
+        status = keep_factors(n, rows, pivots, solution);
     if (status == IGABEM_OK) {
         memcpy(solution->sigma, right, system->hull * sizeof *right);
         status = keep_surface(influence, solution, right + system->hull);
@@ -192,6 +253,7 @@ static igabem_status solve_one(const struct influence *influence,
         status = fill_velocity(influence, solution->density, solution->sigma, solution->speed,
                                &solution->velocity);
     free(right);
+    free(pivots);
     return status;
 }
 

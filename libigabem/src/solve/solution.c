@@ -74,6 +74,7 @@ void igabem_solution_free(igabem_solution *solution)
     free(solution->strip_phi);
     free(solution->sigma);
     free(solution->system);
+    free(solution->pivots);
     free(solution->velocity);
     free(solution->sigma_lower);
     free(solution->sigma_upper);

@@ -22,7 +22,9 @@ struct igabem_solution {
     double surface_momentum;      /* what that returned, m^4/s^2 */
     struct transom *transom;      /* strip and face of a dry one; NULL: none */
     double *strip_phi;            /* coefficients, the rim's phi and its slope */
-    double *system;               /* [n][3][n] as assemble_turn() leaves it; NULL: not kept */
+    double *system;               /* [n][3][n] as assemble_turn() leaves it; of a potential the
+                                     factors of all its unknowns; NULL: not kept */
+    int *pivots;                  /* of those; else NULL */
     double *velocity;     /* [3][n] coefficients of grad phi on the hull, fluid side; NULL: none */
     double *sigma_lower;  /* [n] with 0.85 of the cut-off, NULL: not asked for */
     double *sigma_upper;  /* [n] with 1.15 */

@@ -133,6 +133,23 @@ void element_gather(const struct element *element, const double *coefficients, d
     memcpy(out, half, m * n * sizeof *out);
 }
 
+const struct element *mesh_locate(const struct mesh *mesh, size_t patch, const double uv[2],
+                                  double local[2])
+{
+    const struct element *element = NULL;
+    for (size_t e = mesh->patch_base[patch]; e < mesh->patch_base[patch + 1]; e++) {
+        bool inside = true;
+        element = &mesh->element[e];
+        for (int d = 0; d < 2; d++) {
+            local[d] = (uv[d] - element->lower[d]) / (element->upper[d] - element->lower[d]);
+            inside = inside && local[d] >= -1e-12 && local[d] <= 1.0 + 1e-12;
+        }
+        if (inside)
+            break;
+    }
+    return element;
+}
+
 void element_slope(const struct element *element, const double *coefficients, const double local[2],
                    double slope[2])
 {

@@ -71,6 +71,10 @@ void element_scatter(const struct element *element, size_t fields, const double 
  * (s,t) is sum B_a(s) B_b(t) out[a][b] / jet.weight. */
 void element_gather(const struct element *element, const double *coefficients, double *out);
 
+/* The element that holds parameters of a patch, and the local ones. */
+const struct element *mesh_locate(const struct mesh *mesh, size_t patch, const double uv[2],
+                                  double local[2]);
+
 /* Derivatives of a field along the local parameters. */
 void element_slope(const struct element *element, const double *coefficients, const double local[2],
                    double slope[2]);

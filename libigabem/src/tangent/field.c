@@ -193,6 +193,7 @@ igabem_status field_create(const igabem_hull *hull, const struct density *densit
         field->n = n;
         field->width = (n + FIELD_BLOCK - 1) / FIELD_BLOCK * FIELD_BLOCK;
         field->mesh = mesh;
+        field->controls = total;
         field->net = calloc(total * field->width, sizeof *field->net);
     }
     if (!field || !surface || !field->offset || !field->net)

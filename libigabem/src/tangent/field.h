@@ -12,8 +12,9 @@ struct field {
     size_t n;     /* fields */
     size_t width; /* the same with what fills the last block up, which stays still */
     const struct mesh *mesh;
-    size_t *offset; /* [elements] of the first Bernstein polynomial of each */
-    double *net;    /* of all of them, [width] each: weight times V */
+    size_t controls; /* control values of all elements */
+    size_t *offset;  /* [elements] of the first of each */
+    double *net;     /* [controls][width]: weight times V */
 };
 
 /* move[n][points][3] of all patches of the hull; refuses what is not allowed. */

@@ -6,6 +6,7 @@
 #include "result/kochin.h"
 #include "result/radiation.h"
 #include "result/residual.h"
+#include "tangent/potential.h"
 #include "tangent/radiate.h"
 #include "threads.h"
 
@@ -24,6 +25,8 @@ static igabem_status kochin(const igabem_tangent *tangent, double largest, size_
 {
     size_t n = fields_of(tangent);
     struct radiators *radiators;
+    if (tangent->solution->potential)
+        return potential_kochin(tangent, largest, m, t, h, dh);
     igabem_status status = radiators_create(tangent, largest, &radiators);
     if (status != IGABEM_OK)
         return status;
@@ -140,24 +143,6 @@ igabem_status igabem_tangent_wetted_area(const igabem_tangent *tangent, double *
     return IGABEM_OK;
 }
 
-/* The element that holds parameters of a patch, and the local ones. */
-static const struct element *locate(const struct mesh *mesh, size_t patch, const double uv[2],
-                                    double local[2])
-{
-    const struct element *element = NULL;
-    for (size_t e = mesh->patch_base[patch]; e < mesh->patch_base[patch + 1]; e++) {
-        bool inside = true;
-        element = &mesh->element[e];
-        for (int d = 0; d < 2; d++) {
-            local[d] = (uv[d] - element->lower[d]) / (element->upper[d] - element->lower[d]);
-            inside = inside && local[d] >= -1e-12 && local[d] <= 1.0 + 1e-12;
-        }
-        if (inside)
-            break;
-    }
-    return element;
-}
-
 /* Changes of n_x dS and nu_x dl of one sample: `dsample` is [fields] with the given stride. */
 static void change_measure(const igabem_tangent *tangent, size_t p, const double uv[2],
                            const double jet[9], int edge, double part, struct sample_scale scale,
@@ -166,7 +151,7 @@ static void change_measure(const igabem_tangent *tangent, size_t p, const double
     const struct density_patch *patch = &tangent->solution->density->patch[p];
     size_t n = fields_of(tangent);
     double local[2], width[2];
-    const struct element *element = locate(tangent->mesh, p, uv, local);
+    const struct element *element = mesh_locate(tangent->mesh, p, uv, local);
     for (int d = 0; d < 2; d++)
         width[d] = element->upper[d] - element->lower[d];
     field_at(tangent->field, element, local, v);

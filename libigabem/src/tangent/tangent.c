@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "influence/influence.h"
 #include "solve/formulation.h"
+#include "tangent/potential.h"
 #include "threads.h"
 
 #include <math.h>
@@ -168,8 +169,11 @@ static igabem_status fill(const igabem_hull *hull, size_t n, const double *move,
     status = complete ? area_tangents(tangent) : tangent_no_memory(n);
     if (status == IGABEM_OK) {
         point_tangents(tangent, v);
-        status = formulation_solves(&solution->options) ? tangent_solve(tangent)
-                                                        : explicit_tangents(tangent);
+        if (solution->potential)
+            status = potential_tangent(tangent);
+        else
+            status = formulation_solves(&solution->options) ? tangent_solve(tangent)
+                                                            : explicit_tangents(tangent);
     }
     free(v);
     return status;
@@ -212,5 +216,7 @@ void igabem_tangent_free(igabem_tangent *tangent)
     free(tangent->normal);
     free(tangent->sigma);
     free(tangent->velocity);
+    free(tangent->shape);
+    free(tangent->change);
     free(tangent);
 }

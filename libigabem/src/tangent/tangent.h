@@ -11,11 +11,13 @@ struct igabem_tangent {
     const igabem_solution *solution; /* borrowed */
     struct mesh *mesh;               /* of its density */
     struct field *field;
-    double *area;     /* [n] of the wetted area of both sides, m^2 */
-    double *point;    /* [unknowns][n] moves of the collocation points along y */
-    double *normal;   /* [n][unknowns][3] of the unit normals at the collocation points */
-    double *sigma;    /* [n][unknowns] coefficients of the density */
-    double *velocity; /* [n][3][unknowns] coefficients; NULL: the solution has no velocity */
+    double *area;        /* [n] of the wetted area of both sides, m^2 */
+    double *point;       /* [unknowns][n] moves of the collocation points along y */
+    double *normal;      /* [n][unknowns][3] of the unit normals at the collocation points */
+    double *sigma;       /* [n][unknowns] coefficients of the density */
+    double *velocity;    /* [n][3][unknowns] coefficients; NULL: the solution has no velocity */
+    struct shape *shape; /* of a potential, else NULL: what else the hull enters it by, */
+    double *change;      /* and its changes while phi stays, [size][width of the field] */
 };
 
 igabem_status tangent_no_memory(size_t fields);

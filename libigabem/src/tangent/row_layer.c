@@ -1,0 +1,455 @@
+#include "tangent/row_layer.h"
+
+#include "core/constants.h"
+#include "core/vector_math.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SIDE = 4 };
+
+/* Columns of nodes that carry phi: the area vector A, c and phi times the area over |A| (of unit
+ * parameters), c.A and phi. */
+enum general_column { AX, AY, AZ, CX, CY, CZ, Q, PHI, PHI_PART, GENERAL };
+/* Of those of the free surface: their strength q, q V and q V_t/y_t for a unit move of the inner
+ * edge, and the cubics along x through the four places of the edge that move them. */
+enum flat_column { STRENGTH, MOVED, STRETCHED, CUBIC, FLAT = CUBIC + SIDE };
+enum { ROW_COLUMNS = GENERAL }; /* the larger number */
+
+/* What kernels leave at a node: G, A.dG, and what its move and h count for (tangent/fold.h). */
+enum general_kernel { G, D, PLACE, H = PLACE + 3, GENERAL_KERNELS = H + 3 };
+/* And on the free surface G and its derivative along y at the node, without strength. */
+enum flat_kernel { FLAT_G, FLAT_Y, FLAT_KERNELS };
+
+static bool is_flat(const struct row_layer *layer)
+{
+    return layer->kind == ROW_SURFACE || layer->kind == ROW_STRIP;
+}
+
+static double *column_of(const struct row_nodes *row, int c)
+{
+    return row->column + (size_t)c * row->capacity;
+}
+
+/* V of a unit move of the inner edge at t of row j of the surface, and V_t. The strip's move is
+ * that of the transom's half breadth. */
+static void row_move(const struct row_layer *layer, size_t j, double t, double *v, double *slope)
+{
+    if (layer->kind == ROW_STRIP) {
+        double columns = (double)layer->shape->transom->n;
+        *v = ((double)j + t) / columns;
+        *slope = 1.0 / columns;
+        return;
+    }
+    /* The cubic through thirds that the element has. */
+    const struct free_surface *surface = layer->shape->surface;
+    double all = surface->offset[2 * surface->ny];
+    *v = *slope = 0.0;
+    for (int b = 0; b < SIDE; b++) {
+        double value = 1.0, derivative = 0.0;
+        for (int c = 0; c < SIDE; c++) {
+            if (c == b)
+                continue;
+            double width = (b - c) / 3.0;
+            derivative = (derivative * (t - c / 3.0) + value) / width;
+            value *= (t - c / 3.0) / width;
+        }
+        double move = 1.0 - free_surface_offset(surface, (double)j + b / 3.0) / all;
+        *v += value * move;
+        *slope += derivative * move;
+    }
+}
+
+static void cubics(double s, double value[SIDE])
+{
+    for (int a = 0; a < SIDE; a++) {
+        value[a] = 1.0;
+        for (int c = 0; c < SIDE; c++)
+            if (c != a)
+                value[a] *= (3.0 * s - c) / (a - c);
+    }
+}
+
+static size_t rows_of(const struct row_layer *layer)
+{
+    return layer->kind == ROW_STRIP ? layer->shape->transom->n : layer->shape->surface->ny;
+}
+
+/* Adds the sums over the cubics of a cell. */
+static void add_cell(const struct row_layer *layer, size_t cell, const double sum[SIDE],
+                     double *numbers)
+{
+    if (layer->kind == ROW_STRIP) {
+        numbers[layer->shape->breadth] += sum[0] + sum[1] + sum[2] + sum[3];
+        return;
+    }
+    double *to = numbers + layer->shape->station + 3 * (cell / rows_of(layer));
+    for (int a = 0; a < SIDE; a++)
+        to[a] += sum[a];
+}
+
+void row_layer_place(const struct row_layer *layer, size_t cell, const double local[2],
+                     double place, double *numbers)
+{
+    double v, slope, sum[SIDE];
+    row_move(layer, cell % rows_of(layer), local[1], &v, &slope);
+    cubics(local[0], sum);
+    for (int a = 0; a < SIDE; a++)
+        sum[a] *= place * v;
+    add_cell(layer, cell, sum, numbers);
+}
+
+static void fill_flat(const struct row_layer *layer, const struct block *block,
+                      struct row_nodes *row)
+{
+    const struct nodes *nodes = row->nodes;
+    const struct element *element = block->element;
+    size_t cell = (size_t)(element - layer->surface.influence->mesh->element);
+    double field[ELEMENT_FUNCTIONS];
+    element_gather(element, layer->strength, field);
+    for (size_t i = block->begin; i < block->end; i++) {
+        double local[2], v, slope, along[SIDE];
+        double q = nodes_value(nodes, element, i, field, 1) * nodes->g[i];
+        nodes_local(nodes, element, i, local);
+        row_move(layer, cell % rows_of(layer), local[1], &v, &slope);
+        cubics(local[0], along);
+        column_of(row, STRENGTH)[i] = q;
+        column_of(row, MOVED)[i] = q * v;
+        column_of(row, STRETCHED)[i] = q * slope / nodes->jet[6 * i + 4];
+        for (int a = 0; a < SIDE; a++)
+            column_of(row, CUBIC + a)[i] = along[a];
+    }
+}
+
+static void fill_general(const struct row_layer *layer, const struct block *block,
+                         struct row_nodes *row)
+{
+    const struct nodes *nodes = row->nodes;
+    const struct element *element = block->element;
+    const igabem_solution *solution = layer->tangent->solution;
+    const struct transom *transom = layer->shape->transom;
+    double field[ELEMENT_FUNCTIONS], flux = 0.0;
+    element_gather(element, layer->strength, field);
+    if (layer->kind == ROW_FACE) {
+        size_t j = (size_t)(element - transom->face->element) / TRANSOM_FACE_PARTS;
+        flux = solution->speed * solution->k0 * transom->turn[j] * transom->depth[j];
+    }
+    for (size_t i = block->begin; i < block->end; i++) {
+        struct area_change area;
+        double weight = nodes_weight(nodes, element, i);
+        area_change(nodes->jet + 6 * i, nodes->jet + 6 * i + 3, element->sign, &area);
+        double part = area.size > 0 ? nodes->g[i] * weight / area.size : 0.0;
+        double phi = nodes_value(nodes, element, i, field, 1) / weight, carried = 0.0;
+        for (int c = 0; c < 3; c++) {
+            double of_area = c == 0 ? solution->speed : 0.0;
+            if (layer->kind == ROW_FACE)
+                of_area = area.size > 0 ? flux * area.area[c] / area.size : 0.0;
+            column_of(row, AX + c)[i] = part * area.area[c];
+            column_of(row, CX + c)[i] = part * of_area;
+            carried += part * of_area * area.area[c];
+        }
+        column_of(row, Q)[i] = carried;
+        column_of(row, PHI)[i] = phi;
+        column_of(row, PHI_PART)[i] = part * phi;
+    }
+}
+
+static bool fill_nodes(const struct row_layer *layer, struct nodes *nodes, struct row_nodes *row)
+{
+    if (nodes->failed)
+        return false;
+    if (nodes->n > row->capacity) {
+        free(row->column);
+        row->capacity = row->capacity ? nodes->n + nodes->n / 2 : nodes->n;
+        row->column = malloc(ROW_COLUMNS * row->capacity * sizeof *row->column);
+    }
+    row->nodes = nodes;
+    if (!row->column) {
+        row->capacity = 0;
+        return nodes->n == 0;
+    }
+    if (layer->kind == ROW_HULL && !hull_nodes_fill(nodes, &row->hull))
+        return false;
+    for (size_t b = 0; b < nodes->blocks; b++)
+        if (is_flat(layer))
+            fill_flat(layer, &nodes->block[b], row);
+        else
+            fill_general(layer, &nodes->block[b], row);
+    return true;
+}
+
+static void free_nodes(struct row_nodes *row)
+{
+    hull_nodes_free(&row->hull);
+    free(row->column);
+    row->column = NULL;
+    row->capacity = 0;
+}
+
+/* The nodes of all far rules, and the blocks of each. */
+static bool fill_far(struct row_layer *layer)
+{
+    const struct influence *influence = layer->surface.influence;
+    size_t each = (size_t)REGULAR_CLASSES * REGULAR_CLASSES, rules = each * influence->mesh->panels;
+    struct nodes *nodes = &layer->nodes;
+    layer->node = malloc((rules + 1) * sizeof *layer->node);
+    layer->block = malloc((rules + 1) * sizeof *layer->block);
+    if (!layer->node || !layer->block)
+        return false;
+    for (size_t r = 0; r < rules; r++) {
+        const int class[2] = {(int)(r % each) / REGULAR_CLASSES, (int)(r % each) % REGULAR_CLASSES};
+        layer->node[r] = nodes->n;
+        regular_nodes(influence, r / each, class, nodes);
+    }
+    layer->node[rules] = nodes->n;
+    if (!fill_nodes(layer, nodes, &layer->far))
+        return false;
+    /* Blocks go on from rule to rule: where a rule's first one begins. */
+    for (size_t r = 0, b = 0; r <= rules; r++) {
+        while (b + 1 < nodes->blocks && nodes->block[b].end <= layer->node[r])
+            b++;
+        layer->block[r] = b;
+    }
+    return true;
+}
+
+igabem_status row_layer_create(const igabem_tangent *tangent, const struct shape *shape,
+                               enum row_layer_kind kind, const struct influence *influence,
+                               double *strength, struct row_layer *layer)
+{
+    *layer = (struct row_layer){.kind = kind,
+                                .tangent = tangent,
+                                .shape = shape,
+                                .strength = strength,
+                                .surface = {.influence = influence, .symmetric = true}};
+    layer->surface.flat = is_flat(layer);
+    nodes_init(&layer->nodes, influence->mesh);
+    layer->nodes.with_jets = true;
+    return fill_far(layer) ? IGABEM_OK : tangent_no_memory(tangent->field->n);
+}
+
+void row_layer_free(struct row_layer *layer)
+{
+    nodes_free(&layer->nodes);
+    free_nodes(&layer->far);
+    free(layer->node);
+    free(layer->block);
+    free(layer->strength);
+}
+
+bool row_layer_work_create(const struct row_layer *layer, struct row_layer_work *work)
+{
+    memset(work, 0, sizeof *work);
+    bool complete = layer_work_create(&layer->surface, &work->layer) == IGABEM_OK;
+    work->layer.nodes.with_jets = work->layer.singular.with_jets = true;
+    return complete;
+}
+
+void row_layer_work_free(struct row_layer_work *work)
+{
+    layer_work_free(&work->layer);
+    free_nodes(&work->near);
+    free(work->kernel);
+}
+
+static bool clear_kernels(struct row_layer_work *work, size_t n)
+{
+    if (n > work->capacity) {
+        free(work->kernel);
+        work->capacity = n + n / 2;
+        work->kernel = malloc(GENERAL_KERNELS * work->capacity * sizeof *work->kernel);
+    }
+    if (!work->kernel) {
+        work->capacity = 0;
+        return n == 0;
+    }
+    memset(work->kernel, 0, GENERAL_KERNELS * n * sizeof *work->kernel);
+    return true;
+}
+
+/* Adds the kernels of nodes that carry phi as seen from p; returns the derivative of their sum with
+ * respect to y of p. */
+VECTOR_MULTIVERSION
+static double general_kernels(const double p[3], size_t n, const double *x, const double *y,
+                              const double *z, const double *column, size_t stride,
+                              double *restrict out)
+{
+    const double *ax = column, *ay = ax + stride, *az = ay + stride;
+    const double *cx = az + stride, *cy = cx + stride, *cz = cy + stride, *q = cz + stride;
+    const double *phi = q + stride, *part = phi + stride;
+    double turn = 0.0, scale = -1.0 / (4.0 * PI);
+#pragma omp simd reduction(+ : turn)
+    for (size_t i = 0; i < n; i++) {
+        double dx = p[0] - x[i], dy = p[1] - y[i], dz = p[2] - z[i];
+        double square = 1.0 / (dx * dx + dy * dy + dz * dz), g = scale * sqrt(square);
+        double d = g * square * (ax[i] * dx + ay[i] * dy + az[i] * dz), fall = g * square;
+        double along = square * (q[i] * g - 3.0 * phi[i] * d), turned = phi[i] * fall;
+        double move = along * dy + turned * ay[i];
+        out[i] += g;
+        out[n + i] += d;
+        out[2 * n + i] += along * dx + turned * ax[i];
+        out[3 * n + i] += move;
+        out[4 * n + i] += along * dz + turned * az[i];
+        out[5 * n + i] += cx[i] * g - part[i] * fall * dx;
+        out[6 * n + i] += cy[i] * g - part[i] * fall * dy;
+        out[7 * n + i] += cz[i] * g - part[i] * fall * dz;
+        turn -= move;
+    }
+    return turn;
+}
+
+/* The same on the free surface, twice for the image. */
+VECTOR_MULTIVERSION
+static double flat_kernels(const double p[3], size_t n, const double *x, const double *y,
+                           const double *z, const double *strength, double *restrict out)
+{
+    double turn = 0.0, scale = -2.0 / (4.0 * PI);
+#pragma omp simd reduction(+ : turn)
+    for (size_t i = 0; i < n; i++) {
+        double dx = p[0] - x[i], dy = p[1] - y[i], dz = p[2] - z[i];
+        double square = 1.0 / (dx * dx + dy * dy + dz * dz), g = scale * sqrt(square);
+        double slope = g * square * dy;
+        out[i] += g;
+        out[n + i] += slope;
+        turn -= strength[i] * slope;
+    }
+    return turn;
+}
+
+/* Nodes from `first` on as seen from p, y turned round or not. */
+static void add_kernels(const struct row_layer *layer, const struct row_nodes *row, size_t first,
+                        size_t n, const double p[3], bool turned, double *out, double *turn)
+{
+    const struct nodes *nodes = row->nodes;
+    const double *x = nodes->x + first, *y = nodes->y + first, *z = nodes->z + first;
+    const double *column = row->column + first;
+    double sum = is_flat(layer) ? flat_kernels(p, n, x, y, z, column, out)
+                                : general_kernels(p, n, x, y, z, column, row->capacity, out);
+    *turn += turned ? -sum : sum;
+}
+
+static void fold_flat(const struct row_layer *layer, const struct row_nodes *row,
+                      const struct block *block, size_t first, size_t n, const double *kernel,
+                      double *numbers)
+{
+    size_t cell = (size_t)(block->element - layer->surface.influence->mesh->element);
+    double sum[SIDE] = {0.0};
+    for (size_t i = block->begin; i < block->end; i++) {
+        double value = column_of(row, MOVED)[i] * kernel[FLAT_Y * n + i - first] +
+                       column_of(row, STRETCHED)[i] * kernel[FLAT_G * n + i - first];
+        for (int a = 0; a < SIDE; a++)
+            sum[a] += value * column_of(row, CUBIC + a)[i];
+    }
+    add_cell(layer, cell, sum, numbers);
+}
+
+static void fold_transom(const struct row_layer *layer, const struct row_nodes *row,
+                         const struct block *block, size_t first, size_t n, const double *kernel,
+                         double *numbers)
+{
+    const struct shape *shape = layer->shape;
+    const struct element *element = block->element;
+    size_t part = (size_t)(element - shape->transom->face->element);
+    for (size_t i = block->begin; i < block->end; i++) {
+        double local[2], place[3], h[3], square = 0.0;
+        for (size_t c = 0; c < 3; c++) {
+            double area = column_of(row, AX + (int)c)[i];
+            place[c] = kernel[(PLACE + c) * n + i - first];
+            h[c] = kernel[(H + c) * n + i - first];
+            square += area * area;
+        }
+        nodes_local(row->nodes, element, i, local);
+        fold_face(shape, part, local, row->nodes->jet + 6 * i, element->sign, place, h, numbers);
+        numbers[shape->rim + part / TRANSOM_FACE_PARTS] -= kernel[D * n + i - first];
+        numbers[shape->flux + part / TRANSOM_FACE_PARTS] +=
+            kernel[G * n + i - first] * sqrt(square);
+    }
+}
+
+/* Turns the kernels of nodes from `first` on into what the numbers count for. */
+static void fold_block(const struct row_layer *layer, const struct row_nodes *row,
+                       const struct block *block, size_t first, size_t n, const double *kernel,
+                       double *numbers)
+{
+    if (is_flat(layer)) {
+        fold_flat(layer, row, block, first, n, kernel, numbers);
+    } else if (layer->kind == ROW_FACE) {
+        fold_transom(layer, row, block, first, n, kernel, numbers);
+    } else {
+        const struct field *field = layer->tangent->field;
+        fold_hull(&row->hull, block, first, kernel + (PLACE + 1) * n, kernel + H * n,
+                  kernel + (H + 2) * n,
+                  numbers + field->offset[block->element - field->mesh->element]);
+    }
+}
+
+static bool add_far(const struct row_layer *layer, int images, const double image[4][3],
+                    const bool turned[4], struct row_layer_work *work, double *single,
+                    double *numbers, double *turn)
+{
+    const struct influence *influence = layer->surface.influence;
+    const struct mesh *mesh = influence->mesh;
+    for (size_t p = 0; p < mesh->panels; p++) {
+        if (!work->layer.far[p])
+            continue;
+        const struct regular_rule *rule = regular_rule_of(influence, p, work->layer.class[p]);
+        size_t r = (size_t)(rule - influence->regular), first = layer->node[r];
+        size_t end = layer->node[r + 1], n = end - first;
+        if (!clear_kernels(work, n))
+            return false;
+        for (int i = 0; i < images; i++)
+            if (work->layer.far[p] >> i & 1)
+                add_kernels(layer, &layer->far, first, n, image[i], turned[i], work->kernel, turn);
+        for (size_t b = layer->block[r]; b < layer->nodes.blocks; b++) {
+            struct block block = layer->nodes.block[b];
+            if (block.begin >= end)
+                break;
+            block.begin = block.begin > first ? block.begin : first;
+            block.end = block.end < end ? block.end : end;
+            fold_block(layer, &layer->far, &block, first, n, work->kernel, numbers);
+        }
+        if (single)
+            regular_scatter(&mesh->element[mesh->panel[p].first], rule, 1, work->kernel, n, single,
+                            0);
+    }
+    return true;
+}
+
+/* Nodes that are not shared between points. */
+static bool add_own(const struct row_layer *layer, struct nodes *nodes, const double p[3],
+                    bool turned, struct row_layer_work *work, double *single, double *numbers,
+                    double *turn)
+{
+    if (!nodes->failed && nodes->n == 0)
+        return true;
+    if (!fill_nodes(layer, nodes, &work->near) || !clear_kernels(work, nodes->n))
+        return false;
+    add_kernels(layer, &work->near, 0, nodes->n, p, turned, work->kernel, turn);
+    for (size_t b = 0; b < nodes->blocks; b++)
+        fold_block(layer, &work->near, &nodes->block[b], 0, nodes->n, work->kernel, numbers);
+    if (single)
+        nodes_scatter(nodes, 1, work->kernel, nodes->n, single, 0);
+    nodes_clear(nodes);
+    return true;
+}
+
+bool row_layer_add(const struct row_layer *layer, const struct layer_point *point,
+                   struct row_layer_work *work, double *single, double *numbers, double *turn)
+{
+    static const double origin[3] = {0.0, 0.0, 0.0};
+    double image[4][3];
+    bool turned[4], complete;
+    int images = layer_images(&layer->surface, point, image, turned);
+    layer_look(&layer->surface, point, images, (const double(*)[3])image, &work->layer);
+    complete =
+        add_far(layer, images, (const double(*)[3])image, turned, work, single, numbers, turn);
+    for (int i = 0; i < images && complete; i++) {
+        layer_near_nodes(&layer->surface, point, i, image[i], &work->layer);
+        complete =
+            add_own(layer, &work->layer.nodes, image[i], turned[i], work, single, numbers, turn);
+    }
+    layer_singular_nodes(&layer->surface, point, &work->layer);
+    return complete &&
+           add_own(layer, &work->layer.singular, origin, false, work, single, numbers, turn);
+}
