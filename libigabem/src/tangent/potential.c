@@ -10,25 +10,32 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { ROWS_AT_ONCE = 4 };
+
+/* Sums of one block of fields for several rows of factors, `step` apart. */
 VECTOR_MULTIVERSION
-static void contract_block(size_t n, const double *factor, const double *matrix, size_t width,
-                           double sum[FIELD_BLOCK])
+static void contract_block(size_t n, const double *factor, size_t step, const double *matrix,
+                           size_t width, double sum[ROWS_AT_ONCE][FIELD_BLOCK])
 {
-    double s[FIELD_BLOCK] = {0};
+    double s[ROWS_AT_ONCE][FIELD_BLOCK] = {{0}};
     for (size_t k = 0; k < n; k++, matrix += width)
-        for (size_t l = 0; l < FIELD_BLOCK; l++)
-            s[l] += factor[k] * matrix[l];
+        for (size_t r = 0; r < ROWS_AT_ONCE; r++)
+            for (size_t l = 0; l < FIELD_BLOCK; l++)
+                s[r][l] += factor[r * step + k] * matrix[l];
     memcpy(sum, s, sizeof s);
 }
 
-void potential_contract(size_t n, const double *factor, const double *matrix, size_t width,
-                        size_t fields, double *out)
+/* Adds to out[ROWS_AT_ONCE][fields] the sums of factor[n], rows of it `step` apart, over rows of
+ * matrix[n][width]. */
+static void contract(size_t n, const double *factor, size_t step, const double *matrix,
+                     size_t width, size_t fields, double *out)
 {
     for (size_t first = 0; first < fields; first += FIELD_BLOCK) {
-        double sum[FIELD_BLOCK];
-        contract_block(n, factor, matrix + first, width, sum);
-        for (size_t l = 0; l < FIELD_BLOCK && first + l < fields; l++)
-            out[first + l] += sum[l];
+        double sum[ROWS_AT_ONCE][FIELD_BLOCK];
+        contract_block(n, factor, step, matrix + first, width, sum);
+        for (size_t r = 0; r < ROWS_AT_ONCE; r++)
+            for (size_t l = 0; l < FIELD_BLOCK && first + l < fields; l++)
+                out[r * fields + first + l] += sum[r][l];
     }
 }
 
@@ -42,21 +49,24 @@ static igabem_status right_sides(const igabem_tangent *tangent, const struct row
     igabem_status result = IGABEM_OK;
 #pragma omp parallel num_threads(threads)
     {
-        double *row = malloc(width * sizeof *row), *sum = malloc(field->n * sizeof *sum);
+        double *row = calloc(ROWS_AT_ONCE * width, sizeof *row);
+        double *sum = malloc(ROWS_AT_ONCE * field->n * sizeof *sum);
         struct row_work *work = row_work_create(rows);
         igabem_status status = row && sum && work ? IGABEM_OK : IGABEM_ERROR_MEMORY;
-#pragma omp for schedule(dynamic, 4)
-        for (size_t i = 0; i < n; i++) {
-            if (status == IGABEM_OK)
-                status = rows_fill(rows, i, work, row);
+#pragma omp for schedule(dynamic, 1)
+        for (size_t i = 0; i < n; i += ROWS_AT_ONCE) {
+            size_t count = n - i < ROWS_AT_ONCE ? n - i : ROWS_AT_ONCE;
+            for (size_t r = 0; r < count && status == IGABEM_OK; r++)
+                status = rows_fill(rows, i + r, work, row + r * width);
             if (status != IGABEM_OK)
                 continue;
-            memset(sum, 0, field->n * sizeof *sum);
-            potential_contract(field->controls, row, field->net, field->width, field->n, sum);
-            potential_contract(tangent->shape->size, row + field->controls, tangent->change,
-                               field->width, field->n, sum);
+            memset(sum, 0, ROWS_AT_ONCE * field->n * sizeof *sum);
+            contract(field->controls, row, width, field->net, field->width, field->n, sum);
+            contract(tangent->shape->size, row + field->controls, width, tangent->change,
+                     field->width, field->n, sum);
             for (size_t f = 0; f < field->n; f++)
-                right[f * n + i] = sum[f];
+                for (size_t r = 0; r < count; r++)
+                    right[f * n + i + r] = sum[r * field->n + f];
         }
         row_work_free(work);
         free(row);
@@ -242,21 +252,22 @@ igabem_status potential_kochin(const igabem_tangent *tangent, double largest, si
     bool failed = status != IGABEM_OK;
 #pragma omp parallel reduction(| : failed)
     {
-        double *row = malloc(2 * numbers * sizeof *row), *sum = malloc(field->n * sizeof *sum);
+        double *row = malloc(ROWS_AT_ONCE * numbers * sizeof *row);
+        double *sum = malloc(ROWS_AT_ONCE * field->n * sizeof *sum);
         struct waves_work *work = waves_work_create(waves);
         failed |= !row || !sum || !work;
-#pragma omp for schedule(dynamic, 2)
-        for (size_t i = 0; i < m; i++) {
+#pragma omp for schedule(dynamic, 1)
+        for (size_t i = 0; i < m; i += 2) {
             if (failed)
                 continue;
-            waves_row(waves, t[i], work, h[i], row);
-            for (size_t part = 0; part < 2; part++) {
-                memset(sum, 0, field->n * sizeof *sum);
-                potential_contract(numbers, row + part * numbers, change, field->width, field->n,
-                                   sum);
-                for (size_t f = 0; f < field->n; f++)
-                    dh[f * m + i][part] = sum[f];
-            }
+            for (size_t k = 0; k < 2; k++) /* of an odd number the last one twice */
+                waves_row(waves, t[i + k < m ? i + k : i], work, h[i + k < m ? i + k : i],
+                          row + 2 * k * numbers);
+            memset(sum, 0, ROWS_AT_ONCE * field->n * sizeof *sum);
+            contract(numbers, row, numbers, change, field->width, field->n, sum);
+            for (size_t f = 0; f < field->n; f++)
+                for (size_t k = 0; k < 4 && i + k / 2 < m; k++)
+                    dh[f * m + i + k / 2][k % 2] = sum[k * field->n + f];
         }
         waves_work_free(work);
         free(row);

@@ -13,8 +13,4 @@ igabem_status potential_tangent(igabem_tangent *tangent);
 igabem_status potential_kochin(const igabem_tangent *tangent, double largest, size_t m,
                                const double *t, double (*h)[2], double (*dh)[2]);
 
-/* Adds to out[fields] the sums of factor[n] over rows of matrix[n][width]. */
-void potential_contract(size_t n, const double *factor, const double *matrix, size_t width,
-                        size_t fields, double *out);
-
 #endif

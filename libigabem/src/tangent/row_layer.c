@@ -27,9 +27,36 @@ static bool is_flat(const struct row_layer *layer)
     return layer->kind == ROW_SURFACE || layer->kind == ROW_STRIP;
 }
 
-static double *column_of(const struct row_nodes *row, int c)
+/* Nodes first to end, from block on, and their columns, [columns][n]: the rules of a panel lie
+ * together. */
+struct stretch {
+    const struct nodes *nodes;
+    const struct hull_nodes *hull;
+    size_t first, end, n, block;
+    double *column;
+};
+
+static struct stretch stretch_of(const struct row_nodes *row, size_t first, size_t end,
+                                 size_t block)
 {
-    return row->column + (size_t)c * row->capacity;
+    return (struct stretch){
+        row->nodes, &row->hull, first, end, end - first, block, row->column + ROW_COLUMNS * first};
+}
+
+static double *column_of(const struct stretch *stretch, size_t c)
+{
+    return stretch->column + c * stretch->n;
+}
+
+/* Blocks go on from stretch to stretch: the part of block b; false: it lies behind. */
+static bool part_of(const struct stretch *stretch, size_t b, struct block *block)
+{
+    if (b >= stretch->nodes->blocks || stretch->nodes->block[b].begin >= stretch->end)
+        return false;
+    *block = stretch->nodes->block[b];
+    block->begin = block->begin > stretch->first ? block->begin : stretch->first;
+    block->end = block->end < stretch->end ? block->end : stretch->end;
+    return true;
 }
 
 /* V of a unit move of the inner edge at t of row j of the surface, and V_t. The strip's move is
@@ -101,9 +128,9 @@ void row_layer_place(const struct row_layer *layer, size_t cell, const double lo
 }
 
 static void fill_flat(const struct row_layer *layer, const struct block *block,
-                      struct row_nodes *row)
+                      const struct stretch *stretch)
 {
-    const struct nodes *nodes = row->nodes;
+    const struct nodes *nodes = stretch->nodes;
     const struct element *element = block->element;
     size_t cell = (size_t)(element - layer->surface.influence->mesh->element);
     double field[ELEMENT_FUNCTIONS];
@@ -114,18 +141,19 @@ static void fill_flat(const struct row_layer *layer, const struct block *block,
         nodes_local(nodes, element, i, local);
         row_move(layer, cell % rows_of(layer), local[1], &v, &slope);
         cubics(local[0], along);
-        column_of(row, STRENGTH)[i] = q;
-        column_of(row, MOVED)[i] = q * v;
-        column_of(row, STRETCHED)[i] = q * slope / nodes->jet[6 * i + 4];
-        for (int a = 0; a < SIDE; a++)
-            column_of(row, CUBIC + a)[i] = along[a];
+        size_t to = i - stretch->first;
+        column_of(stretch, STRENGTH)[to] = q;
+        column_of(stretch, MOVED)[to] = q * v;
+        column_of(stretch, STRETCHED)[to] = q * slope / nodes->jet[6 * i + 4];
+        for (size_t a = 0; a < SIDE; a++)
+            column_of(stretch, CUBIC + a)[to] = along[a];
     }
 }
 
 static void fill_general(const struct row_layer *layer, const struct block *block,
-                         struct row_nodes *row)
+                         const struct stretch *stretch)
 {
-    const struct nodes *nodes = row->nodes;
+    const struct nodes *nodes = stretch->nodes;
     const struct element *element = block->element;
     const igabem_solution *solution = layer->tangent->solution;
     const struct transom *transom = layer->shape->transom;
@@ -137,25 +165,26 @@ static void fill_general(const struct row_layer *layer, const struct block *bloc
     }
     for (size_t i = block->begin; i < block->end; i++) {
         struct area_change area;
+        size_t to = i - stretch->first;
         double weight = nodes_weight(nodes, element, i);
         area_change(nodes->jet + 6 * i, nodes->jet + 6 * i + 3, element->sign, &area);
         double part = area.size > 0 ? nodes->g[i] * weight / area.size : 0.0;
         double phi = nodes_value(nodes, element, i, field, 1) / weight, carried = 0.0;
-        for (int c = 0; c < 3; c++) {
+        for (size_t c = 0; c < 3; c++) {
             double of_area = c == 0 ? solution->speed : 0.0;
             if (layer->kind == ROW_FACE)
                 of_area = area.size > 0 ? flux * area.area[c] / area.size : 0.0;
-            column_of(row, AX + c)[i] = part * area.area[c];
-            column_of(row, CX + c)[i] = part * of_area;
+            column_of(stretch, AX + c)[to] = part * area.area[c];
+            column_of(stretch, CX + c)[to] = part * of_area;
             carried += part * of_area * area.area[c];
         }
-        column_of(row, Q)[i] = carried;
-        column_of(row, PHI)[i] = phi;
-        column_of(row, PHI_PART)[i] = part * phi;
+        column_of(stretch, Q)[to] = carried;
+        column_of(stretch, PHI)[to] = phi;
+        column_of(stretch, PHI_PART)[to] = part * phi;
     }
 }
 
-static bool fill_nodes(const struct row_layer *layer, struct nodes *nodes, struct row_nodes *row)
+static bool reserve(const struct row_layer *layer, struct nodes *nodes, struct row_nodes *row)
 {
     if (nodes->failed)
         return false;
@@ -169,14 +198,17 @@ static bool fill_nodes(const struct row_layer *layer, struct nodes *nodes, struc
         row->capacity = 0;
         return nodes->n == 0;
     }
-    if (layer->kind == ROW_HULL && !hull_nodes_fill(nodes, &row->hull))
-        return false;
-    for (size_t b = 0; b < nodes->blocks; b++)
+    return layer->kind != ROW_HULL || hull_nodes_fill(nodes, &row->hull);
+}
+
+static void fill_stretch(const struct row_layer *layer, const struct stretch *stretch)
+{
+    struct block block;
+    for (size_t b = stretch->block; part_of(stretch, b, &block); b++)
         if (is_flat(layer))
-            fill_flat(layer, &nodes->block[b], row);
+            fill_flat(layer, &block, stretch);
         else
-            fill_general(layer, &nodes->block[b], row);
-    return true;
+            fill_general(layer, &block, stretch);
 }
 
 static void free_nodes(struct row_nodes *row)
@@ -185,6 +217,11 @@ static void free_nodes(struct row_nodes *row)
     free(row->column);
     row->column = NULL;
     row->capacity = 0;
+}
+
+static struct stretch rule_stretch(const struct row_layer *layer, size_t r)
+{
+    return stretch_of(&layer->far, layer->node[r], layer->node[r + 1], layer->block[r]);
 }
 
 /* The nodes of all far rules, and the blocks of each. */
@@ -203,13 +240,14 @@ static bool fill_far(struct row_layer *layer)
         regular_nodes(influence, r / each, class, nodes);
     }
     layer->node[rules] = nodes->n;
-    if (!fill_nodes(layer, nodes, &layer->far))
+    if (!reserve(layer, nodes, &layer->far))
         return false;
-    /* Blocks go on from rule to rule: where a rule's first one begins. */
-    for (size_t r = 0, b = 0; r <= rules; r++) {
+    for (size_t r = 0, b = 0; r < rules; r++) {
         while (b + 1 < nodes->blocks && nodes->block[b].end <= layer->node[r])
             b++;
         layer->block[r] = b;
+        const struct stretch stretch = rule_stretch(layer, r);
+        fill_stretch(layer, &stretch);
     }
     return true;
 }
@@ -253,8 +291,9 @@ void row_layer_work_free(struct row_layer_work *work)
     free(work->kernel);
 }
 
-static bool clear_kernels(struct row_layer_work *work, size_t n)
+static bool clear_kernels(const struct row_layer *layer, struct row_layer_work *work, size_t n)
 {
+    size_t kernels = is_flat(layer) ? (size_t)FLAT_KERNELS : (size_t)GENERAL_KERNELS;
     if (n > work->capacity) {
         free(work->kernel);
         work->capacity = n + n / 2;
@@ -264,7 +303,7 @@ static bool clear_kernels(struct row_layer_work *work, size_t n)
         work->capacity = 0;
         return n == 0;
     }
-    memset(work->kernel, 0, GENERAL_KERNELS * n * sizeof *work->kernel);
+    memset(work->kernel, 0, kernels * n * sizeof *work->kernel);
     return true;
 }
 
@@ -272,12 +311,11 @@ static bool clear_kernels(struct row_layer_work *work, size_t n)
  * respect to y of p. */
 VECTOR_MULTIVERSION
 static double general_kernels(const double p[3], size_t n, const double *x, const double *y,
-                              const double *z, const double *column, size_t stride,
-                              double *restrict out)
+                              const double *z, const double *column, double *restrict out)
 {
-    const double *ax = column, *ay = ax + stride, *az = ay + stride;
-    const double *cx = az + stride, *cy = cx + stride, *cz = cy + stride, *q = cz + stride;
-    const double *phi = q + stride, *part = phi + stride;
+    const double *ax = column + AX * n, *ay = column + AY * n, *az = column + AZ * n;
+    const double *cx = column + CX * n, *cy = column + CY * n, *cz = column + CZ * n;
+    const double *q = column + Q * n, *phi = column + PHI * n, *part = column + PHI_PART * n;
     double turn = 0.0, scale = -1.0 / (4.0 * PI);
 #pragma omp simd reduction(+ : turn)
     for (size_t i = 0; i < n; i++) {
@@ -317,70 +355,85 @@ static double flat_kernels(const double p[3], size_t n, const double *x, const d
     return turn;
 }
 
-/* Nodes from `first` on as seen from p, y turned round or not. */
-static void add_kernels(const struct row_layer *layer, const struct row_nodes *row, size_t first,
-                        size_t n, const double p[3], bool turned, double *out, double *turn)
+/* Nodes as seen from p, y turned round or not. */
+static void add_kernels(const struct row_layer *layer, const struct stretch *stretch,
+                        const double p[3], bool turned, double *out, double *turn)
 {
-    const struct nodes *nodes = row->nodes;
+    const struct nodes *nodes = stretch->nodes;
+    size_t first = stretch->first, n = stretch->n;
     const double *x = nodes->x + first, *y = nodes->y + first, *z = nodes->z + first;
-    const double *column = row->column + first;
-    double sum = is_flat(layer) ? flat_kernels(p, n, x, y, z, column, out)
-                                : general_kernels(p, n, x, y, z, column, row->capacity, out);
+    double sum = is_flat(layer) ? flat_kernels(p, n, x, y, z, stretch->column, out)
+                                : general_kernels(p, n, x, y, z, stretch->column, out);
     *turn += turned ? -sum : sum;
 }
 
-static void fold_flat(const struct row_layer *layer, const struct row_nodes *row,
-                      const struct block *block, size_t first, size_t n, const double *kernel,
-                      double *numbers)
+/* Of n nodes, all in one row of columns. */
+VECTOR_MULTIVERSION
+static void flat_sums(size_t n, size_t step, const double *column, const double *kernel,
+                      double sum[SIDE])
 {
-    size_t cell = (size_t)(block->element - layer->surface.influence->mesh->element);
-    double sum[SIDE] = {0.0};
-    for (size_t i = block->begin; i < block->end; i++) {
-        double value = column_of(row, MOVED)[i] * kernel[FLAT_Y * n + i - first] +
-                       column_of(row, STRETCHED)[i] * kernel[FLAT_G * n + i - first];
-        for (int a = 0; a < SIDE; a++)
-            sum[a] += value * column_of(row, CUBIC + a)[i];
+    const double *moved = column + MOVED * step, *stretched = column + STRETCHED * step;
+    const double *cubic = column + CUBIC * step, *g = kernel + FLAT_G * step;
+    const double *slope = kernel + FLAT_Y * step;
+    double s0 = 0.0, s1 = 0.0, s2 = 0.0, s3 = 0.0;
+#pragma omp simd reduction(+ : s0, s1, s2, s3)
+    for (size_t i = 0; i < n; i++) {
+        double value = moved[i] * slope[i] + stretched[i] * g[i];
+        s0 += value * cubic[i];
+        s1 += value * cubic[step + i];
+        s2 += value * cubic[2 * step + i];
+        s3 += value * cubic[3 * step + i];
     }
-    add_cell(layer, cell, sum, numbers);
+    sum[0] = s0;
+    sum[1] = s1;
+    sum[2] = s2;
+    sum[3] = s3;
 }
 
-static void fold_transom(const struct row_layer *layer, const struct row_nodes *row,
-                         const struct block *block, size_t first, size_t n, const double *kernel,
-                         double *numbers)
+static void fold_transom(const struct row_layer *layer, const struct stretch *stretch,
+                         const struct block *block, const double *kernel, double *numbers)
 {
     const struct shape *shape = layer->shape;
     const struct element *element = block->element;
-    size_t part = (size_t)(element - shape->transom->face->element);
+    size_t part = (size_t)(element - shape->transom->face->element), n = stretch->n;
     for (size_t i = block->begin; i < block->end; i++) {
         double local[2], place[3], h[3], square = 0.0;
+        size_t at = i - stretch->first;
         for (size_t c = 0; c < 3; c++) {
-            double area = column_of(row, AX + (int)c)[i];
-            place[c] = kernel[(PLACE + c) * n + i - first];
-            h[c] = kernel[(H + c) * n + i - first];
+            double area = column_of(stretch, AX + c)[at];
+            place[c] = kernel[(PLACE + c) * n + at];
+            h[c] = kernel[(H + c) * n + at];
             square += area * area;
         }
-        nodes_local(row->nodes, element, i, local);
-        fold_face(shape, part, local, row->nodes->jet + 6 * i, element->sign, place, h, numbers);
-        numbers[shape->rim + part / TRANSOM_FACE_PARTS] -= kernel[D * n + i - first];
-        numbers[shape->flux + part / TRANSOM_FACE_PARTS] +=
-            kernel[G * n + i - first] * sqrt(square);
+        nodes_local(stretch->nodes, element, i, local);
+        fold_face(shape, part, local, stretch->nodes->jet + 6 * i, element->sign, place, h,
+                  numbers);
+        numbers[shape->rim + part / TRANSOM_FACE_PARTS] -= kernel[D * n + at];
+        numbers[shape->flux + part / TRANSOM_FACE_PARTS] += kernel[G * n + at] * sqrt(square);
     }
 }
 
-/* Turns the kernels of nodes from `first` on into what the numbers count for. */
-static void fold_block(const struct row_layer *layer, const struct row_nodes *row,
-                       const struct block *block, size_t first, size_t n, const double *kernel,
-                       double *numbers)
+/* Turns the kernels of nodes into what the numbers count for. */
+static void fold_stretch(const struct row_layer *layer, const struct stretch *stretch,
+                         const double *kernel, double *numbers)
 {
-    if (is_flat(layer)) {
-        fold_flat(layer, row, block, first, n, kernel, numbers);
-    } else if (layer->kind == ROW_FACE) {
-        fold_transom(layer, row, block, first, n, kernel, numbers);
-    } else {
-        const struct field *field = layer->tangent->field;
-        fold_hull(&row->hull, block, first, kernel + (PLACE + 1) * n, kernel + H * n,
-                  kernel + (H + 2) * n,
-                  numbers + field->offset[block->element - field->mesh->element]);
+    const struct field *field = layer->tangent->field;
+    size_t n = stretch->n;
+    struct block block;
+    for (size_t b = stretch->block; part_of(stretch, b, &block); b++) {
+        if (is_flat(layer)) {
+            double sum[SIDE];
+            size_t first = block.begin - stretch->first;
+            flat_sums(block.end - block.begin, n, stretch->column + first, kernel + first, sum);
+            add_cell(layer, (size_t)(block.element - layer->surface.influence->mesh->element), sum,
+                     numbers);
+        } else if (layer->kind == ROW_FACE) {
+            fold_transom(layer, stretch, &block, kernel, numbers);
+        } else {
+            fold_hull(stretch->hull, &block, stretch->first, kernel + (PLACE + 1) * n,
+                      kernel + H * n, kernel + (H + 2) * n,
+                      numbers + field->offset[block.element - field->mesh->element]);
+        }
     }
 }
 
@@ -394,24 +447,16 @@ static bool add_far(const struct row_layer *layer, int images, const double imag
         if (!work->layer.far[p])
             continue;
         const struct regular_rule *rule = regular_rule_of(influence, p, work->layer.class[p]);
-        size_t r = (size_t)(rule - influence->regular), first = layer->node[r];
-        size_t end = layer->node[r + 1], n = end - first;
-        if (!clear_kernels(work, n))
+        const struct stretch stretch = rule_stretch(layer, (size_t)(rule - influence->regular));
+        if (!clear_kernels(layer, work, stretch.n))
             return false;
         for (int i = 0; i < images; i++)
             if (work->layer.far[p] >> i & 1)
-                add_kernels(layer, &layer->far, first, n, image[i], turned[i], work->kernel, turn);
-        for (size_t b = layer->block[r]; b < layer->nodes.blocks; b++) {
-            struct block block = layer->nodes.block[b];
-            if (block.begin >= end)
-                break;
-            block.begin = block.begin > first ? block.begin : first;
-            block.end = block.end < end ? block.end : end;
-            fold_block(layer, &layer->far, &block, first, n, work->kernel, numbers);
-        }
+                add_kernels(layer, &stretch, image[i], turned[i], work->kernel, turn);
+        fold_stretch(layer, &stretch, work->kernel, numbers);
         if (single)
-            regular_scatter(&mesh->element[mesh->panel[p].first], rule, 1, work->kernel, n, single,
-                            0);
+            regular_scatter(&mesh->element[mesh->panel[p].first], rule, 1, work->kernel, rule->n,
+                            single, 0);
     }
     return true;
 }
@@ -423,11 +468,12 @@ static bool add_own(const struct row_layer *layer, struct nodes *nodes, const do
 {
     if (!nodes->failed && nodes->n == 0)
         return true;
-    if (!fill_nodes(layer, nodes, &work->near) || !clear_kernels(work, nodes->n))
+    if (!reserve(layer, nodes, &work->near) || !clear_kernels(layer, work, nodes->n))
         return false;
-    add_kernels(layer, &work->near, 0, nodes->n, p, turned, work->kernel, turn);
-    for (size_t b = 0; b < nodes->blocks; b++)
-        fold_block(layer, &work->near, &nodes->block[b], 0, nodes->n, work->kernel, numbers);
+    const struct stretch stretch = stretch_of(&work->near, 0, nodes->n, 0);
+    fill_stretch(layer, &stretch);
+    add_kernels(layer, &stretch, p, turned, work->kernel, turn);
+    fold_stretch(layer, &stretch, work->kernel, numbers);
     if (single)
         nodes_scatter(nodes, 1, work->kernel, nodes->n, single, 0);
     nodes_clear(nodes);
