@@ -417,6 +417,51 @@ static void larger(void)
 }
 #endif
 
+/* The gradient by one transposed solve against tangents of its fields. */
+static void gradient_of(nurbs_surface *surface, nurbs_surface *second)
+{
+    struct body body;
+    make_body(surface, second, IGABEM_FORMULATION_EXTERIOR, 1e-5, &body);
+    double *gradient = malloc(body.points * sizeof *gradient), cw[FIELDS];
+    igabem_tangent *tangent = NULL;
+    CU_ASSERT_FATAL(gradient != NULL);
+    for (int kept = 0; kept < 2; kept++) {
+        body.options.keep_system = kept;
+        igabem_solution *solution = solve(&body, body.hull);
+        CU_ASSERT_EQUAL_FATAL(
+            igabem_tangent_create(body.hull, solution, FIELDS, body.move, &tangent), IGABEM_OK);
+        CU_ASSERT_EQUAL_FATAL(igabem_tangent_cw(tangent, cw), IGABEM_OK);
+        CU_ASSERT_EQUAL_FATAL(igabem_cw_gradient(body.hull, solution, gradient), IGABEM_OK);
+        for (size_t f = 0; f < FIELDS; f++) {
+            double sum = 0.0, scale = 0.0;
+            for (size_t k = 0; k < body.points; k++) {
+                double part = gradient[k] * body.move[3 * (f * body.points + k) + 1];
+                sum += part;
+                scale += fabs(part);
+            }
+            if (!(fabs(sum - cw[f]) <= 1e-11 * scale))
+                fprintf(stderr, "field %zu: %.12g by gradient, %.12g by tangent, parts %.3g\n", f,
+                        sum, cw[f], scale);
+            CHECK_CLOSE(sum, cw[f], 1e-11 * scale);
+        }
+        igabem_tangent_free(tangent);
+        igabem_solution_free(solution);
+    }
+    free(gradient);
+    free_body(&body);
+}
+
+static void gradients(void)
+{
+    gradient_of(ellipsoid_surface(1.0, 0.2, 0.15, 0.2, 2, 2), NULL);
+    gradient_of(wigley_surface(0.1, 0.0625, 3, 2), NULL);
+    gradient_of(flared_hull(3, 2), NULL);
+    nurbs_surface *whole = wigley_surface(0.1, 0.0625, 2, 2), *aft = NULL, *fore = NULL;
+    CU_ASSERT_EQUAL_FATAL(nurbs_surface_split(whole, 0, 0.5, &aft, &fore), NURBS_OK);
+    nurbs_surface_free(whole);
+    gradient_of(aft, fore);
+}
+
 /* A system that is kept is the one that is assembled again. */
 static void kept_system_of(igabem_formulation formulation)
 {
@@ -514,6 +559,7 @@ static const struct check_case cases[] = {
     {"two patches against differences", two_patches},
     {"stern rows against differences", stern_rows},
     {"exterior against differences", exterior},
+    {"gradients", gradients},
     {"kept system", kept_system},
     {"remainders", remainders},
     {"sums of fields", sums},

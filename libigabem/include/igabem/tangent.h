@@ -71,6 +71,21 @@ IGABEM_API igabem_status igabem_tangent_wetted_area(const igabem_tangent *tangen
 IGABEM_API igabem_status igabem_tangent_samples(const igabem_tangent *tangent, size_t n_u,
                                                 size_t n_v, igabem_pressure_sample *dsample);
 
+/** Derivatives of C_w, as igabem_tangent_cw() has them, with respect to y of every control point of
+ * the hull, by one solve with the transposed system: their number costs next to nothing. Along a
+ * field of moves the derivative is the sum of moves times these. Formulation exterior, half hulls.
+ * @param hull     that of the solution
+ * @param solution solved with igabem_options.keep_system it spares this call from assembling its
+ *                 system again
+ * @param dcw      [points], 1/m: of all patches, patch by patch, u slow and v fast; 0 for points
+ *                 that have to stay in the centre plane. Of points that coincide on a collapsed
+ *                 edge the sum counts
+ *
+ * Tells no progress. Errors: IGABEM_ERROR_ARGUMENT: another formulation, a hull given whole,
+ * another hull than that of the solution. */
+IGABEM_API igabem_status igabem_cw_gradient(const igabem_hull *hull,
+                                            const igabem_solution *solution, double *dcw);
+
 #ifdef __cplusplus
 }
 #endif

@@ -18,7 +18,7 @@ static size_t patch_points(const nurbs_surface *surface)
     return nurbs_surface_size(surface, 0) * nurbs_surface_size(surface, 1);
 }
 
-static size_t hull_points(const igabem_hull *hull)
+size_t field_points(const igabem_hull *hull)
 {
     size_t points = 0;
     for (size_t p = 0; p < hull->n; p++)
@@ -43,20 +43,39 @@ static size_t edge_point(const nurbs_surface *surface, int edge, size_t k, size_
     }
 }
 
+/* Whether a point of an edge cannot leave the centre plane. */
+static bool is_held(const igabem_hull *hull, const struct hull_patch *patch, int edge, size_t at)
+{
+    enum hull_edge kind = patch->edge[edge];
+    double y = nurbs_surface_points(patch->surface)[3 * at + 1];
+    return kind == HULL_EDGE_CENTRE ||
+           (kind == HULL_EDGE_COLLAPSED && fabs(y) <= rounding * hull->extent);
+}
+
+void field_hold(const igabem_hull *hull, double *value)
+{
+    for (size_t p = 0; p < hull->n; p++) {
+        const struct hull_patch *patch = &hull->patches[p];
+        for (int e = 0; e < HULL_EDGES; e++)
+            for (size_t k = 0, count = 1; k < count; k++) {
+                size_t at = edge_point(patch->surface, e, k, &count);
+                if (is_held(hull, patch, e, at))
+                    value[at] = 0.0;
+            }
+        value += patch_points(patch->surface);
+    }
+}
+
 static igabem_status check_edge(const igabem_hull *hull, size_t p, int edge, double largest,
                                 const double *move)
 {
     const struct hull_patch *patch = &hull->patches[p];
     enum hull_edge kind = patch->edge[edge];
-    const double *point = nurbs_surface_points(patch->surface);
     size_t first = edge_point(patch->surface, edge, 0, &(size_t){0}), count = 1;
     for (size_t k = 0; k < count; k++) {
         size_t at = edge_point(patch->surface, edge, k, &count);
         double y = move[3 * at + 1];
-        bool centre =
-            kind == HULL_EDGE_CENTRE ||
-            (kind == HULL_EDGE_COLLAPSED && fabs(point[3 * at + 1]) <= rounding * hull->extent);
-        if (centre && fabs(y) > rounding * largest)
+        if (is_held(hull, patch, edge, at) && fabs(y) > rounding * largest)
             return igabem_fail(IGABEM_ERROR_ARGUMENT,
                                "patch %zu: control point %zu lies in the centre plane and moves by "
                                "%g m along y, expected 0",
@@ -74,7 +93,7 @@ static igabem_status check_edge(const igabem_hull *hull, size_t p, int edge, dou
 static igabem_status check_move(const igabem_hull *hull, const double *move)
 {
     double largest = 0.0;
-    size_t points = hull_points(hull), base = 0;
+    size_t points = field_points(hull), base = 0;
     for (size_t k = 0; k < points; k++)
         largest = fmax(largest, fabs(move[3 * k + 1]));
     for (size_t p = 0; p < hull->n; p++) {
@@ -103,7 +122,7 @@ static igabem_status check_move(const igabem_hull *hull, const double *move)
 static igabem_status move_surfaces(const igabem_hull *hull, const struct density *density, size_t n,
                                    size_t first, const double *move, nurbs_surface **surface)
 {
-    size_t points = hull_points(hull), base = 0;
+    size_t points = field_points(hull), base = 0;
     double *coordinates = malloc(3 * points * sizeof *coordinates);
     igabem_status status =
         coordinates ? IGABEM_OK
@@ -176,9 +195,16 @@ igabem_status field_create(const igabem_hull *hull, const struct density *densit
     *result = NULL;
     igabem_status status = check_hull(hull, density);
     for (size_t k = 0; k < n && status == IGABEM_OK; k++)
-        status = check_move(hull, move + 3 * hull_points(hull) * k);
-    if (status != IGABEM_OK)
-        return status;
+        status = check_move(hull, move + 3 * field_points(hull) * k);
+    return status == IGABEM_OK ? field_make(hull, density, mesh, n, move, result) : status;
+}
+
+igabem_status field_make(const igabem_hull *hull, const struct density *density,
+                         const struct mesh *mesh, size_t n, const double *move,
+                         struct field **result)
+{
+    igabem_status status = IGABEM_OK;
+    *result = NULL;
     struct field *field = calloc(1, sizeof *field);
     nurbs_surface **surface = calloc(hull->n, sizeof *surface);
     size_t total = 0;

@@ -21,7 +21,15 @@ struct field {
 igabem_status field_create(const igabem_hull *hull, const struct density *density,
                            const struct mesh *mesh, size_t n, const double *move,
                            struct field **field);
+/* The same of any moves along y, which are not checked. */
+igabem_status field_make(const igabem_hull *hull, const struct density *density,
+                         const struct mesh *mesh, size_t n, const double *move,
+                         struct field **field);
 void field_free(struct field *field);
+
+/* Control points of all patches; sets to 0 what has to stay of a value for each. */
+size_t field_points(const igabem_hull *hull);
+void field_hold(const igabem_hull *hull, double *value);
 
 /* Control values of an element, [pu+1][pv+1][width]. */
 const double *field_net(const struct field *field, const struct element *element);

@@ -86,16 +86,24 @@ void fold_hull(const struct hull_nodes *hull, const struct block *block, size_t 
     }
 }
 
-void fold_place(const struct element *element, const double local[2], double place, double *moment)
+void fold_point(const struct element *element, const double local[2], double place,
+                const double slope[2], double *moment)
 {
     size_t m = (size_t)element->degree[0] + 1, n = (size_t)element->degree[1] + 1;
-    double bu[ELEMENT_SIDE], bv[ELEMENT_SIDE], weight = 0.0;
-    bernstein(element->degree[0], local[0], bu, NULL);
-    bernstein(element->degree[1], local[1], bv, NULL);
+    double bu[ELEMENT_SIDE], du[ELEMENT_SIDE], bv[ELEMENT_SIDE], dv[ELEMENT_SIDE];
+    double w[3] = {0.0, 0.0, 0.0};
+    bernstein(element->degree[0], local[0], bu, du);
+    bernstein(element->degree[1], local[1], bv, dv);
+    for (size_t k = 0; k < m * n; k++) {
+        double weight = element->net[4 * k + 3];
+        w[0] += bu[k / n] * bv[k % n] * weight;
+        w[1] += du[k / n] * bv[k % n] * weight;
+        w[2] += bu[k / n] * dv[k % n] * weight;
+    }
+    double still = (place - (slope[0] * w[1] + slope[1] * w[2]) / w[0]) / w[0];
     for (size_t k = 0; k < m * n; k++)
-        weight += bu[k / n] * bv[k % n] * element->net[4 * k + 3];
-    for (size_t k = 0; k < m * n; k++)
-        moment[k] += place / weight * bu[k / n] * bv[k % n];
+        moment[k] += still * bu[k / n] * bv[k % n] +
+                     (slope[0] * du[k / n] * bv[k % n] + slope[1] * bu[k / n] * dv[k % n]) / w[0];
 }
 
 void fold_face(const struct shape *shape, size_t part, const double local[2], const double jet[6],

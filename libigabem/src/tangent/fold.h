@@ -24,8 +24,9 @@ void hull_nodes_free(struct hull_nodes *hull);
  * first of them that of node `first`. */
 void fold_hull(const struct hull_nodes *hull, const struct block *block, size_t first,
                const double *place, const double *hx, const double *hz, double *moment);
-/* The same of one node that nothing turns. */
-void fold_place(const struct element *element, const double local[2], double place, double *moment);
+/* The same of one place, whose move, V_s and V_t count for place and slope[2]. */
+void fold_point(const struct element *element, const double local[2], double place,
+                const double slope[2], double *moment);
 
 /* Adds one node of an element of the face to the numbers of a shape. */
 void fold_face(const struct shape *shape, size_t part, const double local[2], const double jet[6],

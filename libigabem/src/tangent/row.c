@@ -207,11 +207,12 @@ static void find_places(const struct rows *rows, size_t i, struct places *places
 /* What the move of the unknown's own place counts for. */
 static void add_turn(const struct rows *rows, const struct places *places, double turn, double *row)
 {
-    static const double middle[2] = {0.5, 0.5};
+    static const double middle[2] = {0.5, 0.5}, none[2] = {0.0, 0.0};
     const struct field *field = rows->tangent->field;
     if (places->on == PART_HULL) {
         size_t e = places->hull.home[0];
-        fold_place(&field->mesh->element[e], places->hull.local[0], turn, row + field->offset[e]);
+        fold_point(&field->mesh->element[e], places->hull.local[0], turn, none,
+                   row + field->offset[e]);
         return;
     }
     row_layer_place(&rows->layer[places->on], places->cell, middle, turn, row + rows->net);

@@ -15,7 +15,7 @@ igabem_status tangent_no_memory(size_t fields)
     return igabem_fail(IGABEM_ERROR_MEMORY, "no memory for derivatives along %zu fields", fields);
 }
 
-static igabem_status check(const igabem_solution *solution)
+igabem_status tangent_check(const igabem_solution *solution)
 {
     const igabem_formulation_row *formulation = solution->formulation;
     if (!solution->waves)
@@ -84,7 +84,7 @@ static void area_factors(const struct element *element, const struct gauss *gaus
 }
 
 /* The wetted area leaves out what closes a transom. */
-static igabem_status area_tangents(igabem_tangent *tangent)
+igabem_status tangent_area(igabem_tangent *tangent)
 {
     size_t n = tangent->field->n;
     struct gauss gauss;
@@ -166,7 +166,7 @@ static igabem_status fill(const igabem_hull *hull, size_t n, const double *move,
     tangent->normal = malloc(3 * n * unknowns * sizeof *tangent->normal);
     tangent->sigma = malloc(n * unknowns * sizeof *tangent->sigma);
     bool complete = v && tangent->area && tangent->point && tangent->normal && tangent->sigma;
-    status = complete ? area_tangents(tangent) : tangent_no_memory(n);
+    status = complete ? tangent_area(tangent) : tangent_no_memory(n);
     if (status == IGABEM_OK) {
         point_tangents(tangent, v);
         if (solution->potential)
@@ -188,7 +188,7 @@ igabem_status igabem_tangent_create(const igabem_hull *hull, const igabem_soluti
         return igabem_fail(IGABEM_ERROR_ARGUMENT, "NULL argument of igabem_tangent_create");
     if (n == 0)
         return igabem_fail(IGABEM_ERROR_ARGUMENT, "no fields, expected at least one");
-    igabem_status status = check(solution);
+    igabem_status status = tangent_check(solution);
     if (status != IGABEM_OK)
         return status;
     THREADS(solution->options.threads);

@@ -22,6 +22,12 @@ struct igabem_tangent {
 
 igabem_status tangent_no_memory(size_t fields);
 
+/* Refuses what has no tangents. */
+igabem_status tangent_check(const igabem_solution *solution);
+
+/* Fills area, which is all 0. */
+igabem_status tangent_area(igabem_tangent *tangent);
+
 /* tangent->sigma and tangent->velocity of a formulation that solves. */
 igabem_status tangent_solve(igabem_tangent *tangent);
 
