@@ -1105,6 +1105,12 @@ module igabem_c
       integer(c_size_t), value :: n_v
       type(igabem_pressure_sample), intent(inout), optional :: dsample(*)
     end function
+    integer(c_int) function igabem_cw_gradient(hull, solution, dcw) bind(c)
+      import
+      type(c_ptr), value :: hull
+      type(c_ptr), value :: solution
+      real(c_double), intent(inout), optional :: dcw(*)
+    end function
     integer(c_int) function nurbs_curve_create(degree, n, knots, points, weights, curve) bind(c)
       import
       integer(c_int), value :: degree

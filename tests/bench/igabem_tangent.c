@@ -1,7 +1,7 @@
 /* Processor time of tangents beside that of the solution: the DTMB 5415 wetted and simplified, Fr
  * 0.35, 15 fields. One line for each formulation that has them; the solution includes its residuals
- * and 40 x 20 samples of the pressure, the tangents the derivatives of these. Usage:
- * igabem_bench_tangent [fields] */
+ * and 40 x 20 samples of the pressure, the tangents the derivatives of these. Then the gradient by
+ * all control points of those that have one. Usage: igabem_bench_tangent [fields] */
 #define _POSIX_C_SOURCE 200809L
 #include <igabem/igabem.h>
 #include <nurbs/nurbs.h>
@@ -127,6 +127,39 @@ static igabem_status run(const igabem_hull *hull, igabem_formulation formulation
     return IGABEM_OK;
 }
 
+/* C_w by all control points. */
+static igabem_status run_gradient(const igabem_hull *hull, igabem_formulation formulation,
+                                  size_t points)
+{
+    igabem_options options;
+    igabem_options_init(&options);
+    options.froude = 0.35;
+    options.formulation = formulation;
+    double spent[2][2] = {{0.0}}, *gradient = malloc(points * sizeof *gradient);
+    igabem_status status = IGABEM_OK;
+    for (int kept = 0; kept < 2 && !status; kept++) {
+        igabem_solution *solution = NULL;
+        options.keep_system = kept;
+        double start = seconds();
+        status = igabem_solve(hull, &options, &solution);
+        if (!status)
+            status = results(solution);
+        spent[kept][0] = seconds() - start;
+        start = seconds();
+        if (!status)
+            status = igabem_cw_gradient(hull, solution, gradient);
+        spent[kept][1] = seconds() - start;
+        igabem_solution_free(solution);
+    }
+    free(gradient);
+    if (!status)
+        printf("\n%s, gradient by %zu control points: %.2f, with a kept system %.2f; %.2f and %.2f "
+               "solutions\n",
+               igabem_formulation_name(formulation), points, spent[0][1], spent[1][1],
+               spent[0][1] / spent[0][0], spent[1][1] / spent[1][0]);
+    return status;
+}
+
 int main(int argc, char **argv)
 {
     size_t fields = argc > 1 ? (size_t)atoi(argv[1]) : 15;
@@ -145,6 +178,9 @@ int main(int argc, char **argv)
     for (int f = 0; !status && igabem_formulation_info((igabem_formulation)f); f++)
         if (igabem_formulation_info((igabem_formulation)f)->tangents)
             status = run(hull, (igabem_formulation)f, fields, move);
+    if (!status)
+        status = run_gradient(hull, IGABEM_FORMULATION_EXTERIOR,
+                              nurbs_surface_size(surface, 0) * nurbs_surface_size(surface, 1));
     if (status)
         fprintf(stderr, "%s\n", igabem_last_error());
     igabem_hull_free(hull);

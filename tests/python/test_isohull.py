@@ -147,6 +147,18 @@ class Flow(unittest.TestCase):
         velocity, pressure = flow.velocity([[0.5, 0.5]])
         self.assertTrue(np.isfinite(velocity).all() and np.isfinite(pressure).all())
 
+    def test_gradient(self):
+        # By one transposed solve, against the tangent of the same solution.
+        hull = nurbs.Hull([nurbs.Surface.wigley()])
+        y = hull.surfaces[0].points[..., 1]
+        move = np.zeros((1, y.size, 3))
+        move[0, :, 1] = y.ravel()
+        flow = igabem.solve(hull, 0.35, formulation="exterior", elements_u=4, elements_v=2, surface_cells=12,
+                            surface_rows=6, keep_system=1)
+        self.assertAlmostEqual(flow.cw_gradient(hull) @ y.ravel() / flow.tangent(hull, move).cw[0], 1, 9)
+        with self.assertRaisesRegex(Error, "has no gradient"):
+            igabem.solve(hull, 0.35, formulation="hogner", elements_u=4, elements_v=2).cw_gradient(hull)
+
     def test_tangent(self):
         # Hogner's sources follow the surface: H of the hull moved by 1e-4 either way.
         hull = nurbs.Hull([nurbs.Surface.wigley()])

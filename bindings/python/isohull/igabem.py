@@ -104,6 +104,15 @@ class Solution(Handle):
         keep_system=1 saves half of the time."""
         return Tangent(self, hull, move)
 
+    def cw_gradient(self, hull):
+        """Derivatives of forces["cw"] by y of every control point, all surfaces of hull.surfaces one after the
+        other, 1/m, by one transposed solve: formulation exterior. hull: the nurbs.Hull that was solved."""
+        made, gradient = Created(), np.empty(sum(int(np.prod(s.shape)) for s in hull.surfaces))
+        IGABEM.call("hull_from", hull._as_parameter, made.place())
+        body = _Hull(made.value)
+        IGABEM.call("cw_gradient", body._as_parameter, self._as_parameter, pointer(gradient))
+        return gradient
+
 
 class Tangent(Handle):
     """The derivatives of a solution along fields of moves of its hull."""

@@ -102,7 +102,8 @@ typedef struct igabem_options {
     double surface_downstream; /**< aft of it; 1 */
     double surface_side;       /**< from the centre line outwards; 0.75 */
     double surface_columns;    /**< of cells aft of the half of a dry transom; 6 */
-    double keep_system;        /**< 1: the solution keeps its system, 24 dofs^2 bytes, so that
+    double keep_system;        /**< 1: the solution keeps its system, 24 dofs^2 bytes (exterior: 8
+                                  times the square of all unknowns), so that
                                   igabem_tangent_create() need not assemble it again; 0 */
     double reserved[7];        /**< 0: room for members of later releases */
 } igabem_options;

@@ -8,7 +8,8 @@
  *     A sigma' = U n_x' - A' sigma,     H' = E sigma' + E' sigma
  *
  * (docs/theory.md, section 15). All fields together cost about as much as a solution, where
- * differences cost one or two for each field.
+ * differences cost one or two for each field. igabem_cw_gradient() has the derivatives of C_w by
+ * all control points.
  */
 #ifndef IGABEM_TANGENT_H
 #define IGABEM_TANGENT_H
