@@ -117,6 +117,11 @@ static const struct setting ROWS[] = {
     ROW("folder", TEXT, folder,
         "where commands work, a numbered folder each time; relative to the folder of this file",
         .otherwise = "evaluations"),
+    ROW("placement.draft", NUMBER, draft,
+        "at the keel amidships, m, which sets the still water; else it is z = 0 of the file",
+        SETTING_ABOVE(0), .words = NONE, .otherwise = "none"),
+    ROW("placement.trim", NUMBER, trim, "degrees, bow up, about the middle of the waterline",
+        SETTING_INSIDE(-10, 10), .otherwise = "0"),
     ROW("grid.sections", COUNT, sections, "points of the design grid along the hull",
         SETTING_FROM(4, 2000), .words = AS_IN_FILE, .otherwise = "0"),
     ROW("grid.girth", COUNT, girth, "and around it", SETTING_FROM(4, 2000), .words = AS_IN_FILE,
@@ -176,6 +181,9 @@ static const struct setting ROWS[] = {
         .required = true),
     ROW("flow.gravity", NUMBER, solver.gravity, "m/s^2", SETTING_ABOVE(0)),
     ROW("flow.density", NUMBER, solver.density, "kg/m^3", SETTING_ABOVE(0)),
+    ROW("flow.free_to_trim", SWITCH, free_to_trim,
+        "each design at the sinkage and trim of each speed, by solver.formulation; else held",
+        .otherwise = "false"),
     ROW("flow.viscosity", NUMBER, viscosity,
         "kinematic, m^2/s, for the total resistance by ITTC-57", SETTING_ABOVE(0),
         .otherwise = "1.1386e-6"),
@@ -485,6 +493,19 @@ static void check_commands(struct settings_source *source, const struct config *
                           method_row(c->method)->name);
 }
 
+static void check_attitude(struct settings_source *source, const struct config *c)
+{
+    if (c->free_to_trim && !igabem_formulation_info(c->solver.formulation)->pressure)
+        settings_complain(source, "flow.free_to_trim",
+                          "needs the pressure on the hull, which %s has not",
+                          igabem_formulation_name(c->solver.formulation));
+    if (c->free_to_trim &&
+        (method_row(c->method)->kind == METHOD_DESCENT || c->design == CONFIG_DESIGN_FORECAST))
+        settings_complain(source, "flow.free_to_trim",
+                          "is not for searches by derivatives, which are those of a hull held at "
+                          "rest");
+}
+
 static void check(struct settings_source *source, void *target)
 {
     const struct config *c = target;
@@ -502,6 +523,7 @@ static void check(struct settings_source *source, void *target)
     if (!isnan(c->confirm) && !c->models)
         settings_complain(source, "search.confirm", "needs search.models");
     check_places(source, c);
+    check_attitude(source, c);
     if (!isnan(c->pressure) && !igabem_formulation_info(c->solver.formulation)->pressure)
         settings_complain(source, "constraints.pressure",
                           "needs a resistance by pressure, which %s has not",

@@ -63,6 +63,9 @@ struct config {
     struct config_command judge; /* of what is lowered */
     char *folder;                /* where commands work */
 
+    double draft; /* at the keel amidships, which sets the still water, m; NAN: as in the file */
+    double trim;  /* degrees, bow up, about the middle of the waterline */
+    bool free_to_trim;      /* designs float at the sinkage and trim of each speed */
     size_t sections, girth; /* design grid; 0: the one that the hull file keeps */
     size_t samples;         /* of the latent space */
     uint64_t latent_seed;

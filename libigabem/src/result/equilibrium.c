@@ -99,6 +99,10 @@ static igabem_status iterate(const nurbs_patches *patches, nurbs_hull_options *p
     struct rest rest;
     bool found = false;
     igabem_status status = place(patches, placement, &hull, placed);
+    if (!status && nurbs_hull_has_waterline(*placed) && !nurbs_hull_is_cut(*placed))
+        status = igabem_fail(IGABEM_ERROR_ARGUMENT,
+                             "equilibrium needs a hull that reaches above the still water, this "
+                             "one ends there");
     if (!status)
         status = start(hull, &rest, placement, options, equilibrium);
     for (int i = 0; i < MOST_SOLVES && !status && !found; i++) {

@@ -127,6 +127,9 @@ static void print_solver(const struct plan *p)
            igabem_formulation_name(o->formulation), o->cutoff_angle, o->stem_limit);
     printf("%-16s%zu unknowns\n%-16sC_w %.4e, %.2f s\n", "mesh", p->parent.dofs, "original",
            p->parent.cw, p->parent.geometry_seconds + p->parent.solve_seconds);
+    if (p->config.free_to_trim)
+        printf("%-16ssunk by %.4g m, trimmed by %.3g degrees\n", "floating", p->parent.sinkage,
+               p->parent.trim);
     if (p->config.judge.command)
         printf("%-16s%s: %.6g\n", "objective", p->config.judge.command, p->parent.value);
     for (size_t k = 0; k < objectives_count(&p->config) && objectives_count(&p->config) > 1; k++) {

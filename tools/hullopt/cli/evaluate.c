@@ -182,6 +182,10 @@ static json_t *result(const struct asked *a)
     put(o, "rt", objective_total_resistance(&a->config, problem_length(&a->problem), e));
     put(o, "volume", e->volume);
     put(o, "wetted_area", e->wetted_area);
+    if (a->config.free_to_trim) {
+        put(o, "sinkage", e->sinkage);
+        put(o, "trim", e->trim);
+    }
     json_result_set(o, "cw_models", list(e->failed ? 0 : e->models, e->cw_model));
     json_result_set(o, "cw_speeds", list(e->failed ? 0 : e->speeds, e->cw_speed));
     json_result_set(o, "constraints", limits);

@@ -1,6 +1,7 @@
 #include "core/evaluate.h"
 
 #include "cli.h"
+#include "core/attitude.h"
 #include "core/constraints.h"
 #include "core/external.h"
 #include "core/objective.h"
@@ -28,7 +29,9 @@ void evaluation_start(uint64_t id, const char *phase, const double *u, struct ev
                              .bound = NAN,
                              .outside = NAN,
                              .breadth = NAN,
-                             .nu_s = NAN};
+                             .nu_s = NAN,
+                             .sinkage = NAN,
+                             .trim = NAN};
     for (size_t i = 0; i < CONFIG_MODELS_MOST; i++)
         e->cw_model[i] = NAN;
     for (size_t i = 0; i < SPEEDS_MOST; i++)
@@ -92,26 +95,28 @@ static bool compute_forces(const igabem_solution *solution, igabem_forces *force
                      igabem_solution_options(solution)->froude);
 }
 
-static bool keep_list(igabem_solution *const *solutions, size_t n, double *cw)
+/* area: of the wetted surface over that at rest, which C_w is told on. */
+static bool keep_list(igabem_solution *const *solutions, size_t n, const double *area, double *cw)
 {
     igabem_forces forces;
     for (size_t i = 0; i < n; i++) {
         if (!compute_forces(solutions[i], &forces))
             return false;
-        cw[i] = forces.cw;
+        cw[i] = forces.cw * area[i];
     }
     return true;
 }
 
-static bool keep(igabem_solution *const *solutions, struct evaluation *e)
+static bool keep(igabem_solution *const *solutions, const double *area, struct evaluation *e)
 {
+    size_t first = 1 + e->models;
     igabem_forces forces;
-    if (!keep_list(solutions + 1, e->models, e->cw_model) ||
-        !keep_list(solutions + 1 + e->models, e->speeds, e->cw_speed) ||
+    if (!keep_list(solutions + 1, e->models, area + 1, e->cw_model) ||
+        !keep_list(solutions + first, e->speeds, area + first, e->cw_speed) ||
         !compute_forces(solutions[0], &forces))
         return false;
-    e->cw = forces.cw;
-    e->cw_pressure = forces.cw_pressure;
+    e->cw = forces.cw * area[0];
+    e->cw_pressure = forces.cw_pressure * area[0];
     e->rw = forces.rw;
     e->share_beyond_cutoff = forces.share_beyond_cutoff;
     e->condition = forces.condition;
@@ -151,19 +156,42 @@ struct viewer {
     void *user_data;
 };
 
-static bool solve(const struct problem *problem, const igabem_hull *body, struct viewer viewer,
+/* n settings of one speed, or at rest of all, with the hull as it floats there. */
+static bool solve_afloat(const struct problem *problem, const struct design *design, size_t n,
+                         const igabem_options *settings, struct attitude *attitude,
+                         igabem_solution **solutions, double *area)
+{
+    if (!attitude_find(problem, design, settings[0].froude, attitude))
+        return false;
+    for (size_t k = 0; k < n; k++)
+        area[k] = attitude->area;
+    return igabem_solve_many(attitude->body, n, settings, solutions) == IGABEM_OK ||
+           core_fail("solve: %s", igabem_last_error());
+}
+
+static bool solve(const struct problem *problem, const struct design *design, struct viewer viewer,
                   struct evaluation *e)
 {
-    igabem_solution *solutions[SETTINGS_MOST];
+    igabem_solution *solutions[SETTINGS_MOST] = {NULL};
     igabem_options settings[SETTINGS_MOST];
-    size_t n = evaluate_settings(problem, settings);
+    struct attitude attitude[1 + CONFIG_FROUDE_MOST];
+    double area[SETTINGS_MOST];
+    size_t n = evaluate_settings(problem, settings), found = 0;
     e->models = problem->config->models;
     e->speeds = n - 1 - e->models;
-    if (igabem_solve_many(body, n, settings, solutions) != IGABEM_OK)
-        return core_fail("solve: %s", igabem_last_error());
-    bool ok = keep(solutions, e) && (!viewer.look || viewer.look(viewer.user_data, solutions));
+    size_t each = problem->config->free_to_trim ? 1 + e->models : n;
+    bool ok = true;
+    for (size_t i = 0; i < n && ok; i += each)
+        ok = solve_afloat(problem, design, each, settings + i, &attitude[found++], solutions + i,
+                          area + i);
+    ok = ok && keep(solutions, area, e) &&
+         (!viewer.look || viewer.look(viewer.user_data, solutions));
+    e->sinkage = attitude[0].sinkage;
+    e->trim = attitude[0].trim;
     for (size_t i = 0; i < n; i++)
         igabem_solution_free(solutions[i]);
+    while (found)
+        attitude_free(&attitude[--found]);
     return ok;
 }
 
@@ -174,7 +202,7 @@ static void finish(struct problem *problem, const struct design *design, const d
     bool here = !problem->remote || viewer.look || design == &problem->parent;
     bool ok = design && measure(problem, design, points, e) && keep_limits(problem, e);
     double built = cli_seconds();
-    ok = ok && (here ? solve(problem, design->body, viewer, e) : solve_remotely(problem, e));
+    ok = ok && (here ? solve(problem, design, viewer, e) : solve_remotely(problem, e));
     if (ok && here && problem->config->judge.command)
         ok = external_judge(problem->config, e->u, design->hull, &e->value, e->told);
     e->geometry_seconds = built - start;

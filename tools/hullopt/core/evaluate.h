@@ -34,6 +34,7 @@ struct evaluation {
     double breadth; /* least share of its half breadth that a wet point keeps */
     double particular[PARTICULARS][2]; /* of particulars_of() */
     double nu_s;                       /* of the waterline, as design_nu_s() */
+    double sinkage, trim;              /* at flow.froude, of struct attitude */
     size_t dofs;
     double propose_seconds, geometry_seconds, solve_seconds;
     /* Of core/remote.h: servers that did not answer, bit by bit, why the last did not, and whether

@@ -1,6 +1,7 @@
 #include "core/problem.h"
 
 #include "cli.h"
+#include "constants.h"
 #include "core/external.h"
 #include "core/particulars.h"
 #include "core/snapshots.h"
@@ -69,6 +70,29 @@ static void hull_options(const struct problem *problem, nurbs_hull_options *opti
     options->single = true; /* a family moves the design grid of one surface */
 }
 
+/* Reads a hull as it is placed: z = 0 is the still water of its full surface too, from which the
+ * design grid is taken. */
+static bool read_hull(const struct problem *problem, const char *path, nurbs_hull **hull)
+{
+    const struct config *config = problem->config;
+    nurbs_hull_options options;
+    hull_options(problem, &options);
+    options.draft = config->draft;
+    *hull = NULL;
+    nurbs_status status = nurbs_hull_read(path, &options, hull);
+    if (!status && (config->trim != 0 || !isnan(config->draft))) {
+        const nurbs_hydrostatics *h = nurbs_hull_hydrostatics(*hull);
+        options.draft = NAN;
+        options.sinkage = nurbs_hull_level(*hull);
+        options.pivot = (h->x_fore + h->x_aft) / 2;
+        options.trim = config->trim * (PI / 180);
+        nurbs_hull_free(*hull);
+        *hull = NULL;
+        status = nurbs_hull_read(path, &options, hull);
+    }
+    return status == NURBS_OK || core_fail("%s", nurbs_last_error());
+}
+
 static size_t count_points(const struct problem *problem)
 {
     return nurbs_grid_rows(problem->grid) * nurbs_grid_columns(problem->grid);
@@ -77,14 +101,13 @@ static size_t count_points(const struct problem *problem)
 bool problem_read_points(struct problem *problem, const char *path, double *points)
 {
     const struct config *config = problem->config;
-    nurbs_hull_options options;
-    nurbs_hull *hull = NULL;
+    nurbs_hull *hull;
     nurbs_grid *grid = NULL;
-    hull_options(problem, &options);
-    bool ok = nurbs_hull_read(path, &options, &hull) == NURBS_OK &&
-              nurbs_hull_design_grid(hull, config->sections, config->girth, &grid) == NURBS_OK;
+    bool ok = read_hull(problem, path, &hull) &&
+              (nurbs_hull_design_grid(hull, config->sections, config->girth, &grid) == NURBS_OK ||
+               core_fail("%s", nurbs_last_error()));
     if (!ok)
-        core_fail("hull: %s", nurbs_last_error());
+        core_fail("hull: %s", core_sentence());
     else if (nurbs_grid_rows(grid) != nurbs_grid_rows(problem->grid) ||
              nurbs_grid_columns(grid) != nurbs_grid_columns(problem->grid))
         ok = core_fail("hull: its design grid is %zu x %zu, that of the original %zu x %zu: set "
@@ -210,15 +233,11 @@ bool problem_freeze(struct problem *problem)
 
 bool problem_read(const struct config *config, struct problem *problem)
 {
-    nurbs_hull_options options;
     char path[CONFIG_PATH];
     *problem = (struct problem){.config = config};
-    hull_options(problem, &options);
     bool ok = !config->maker.command || external_make(config, NULL, path) ||
               core_fail("%s: the original cannot be made (%s)", config->path, core_sentence());
-    ok = ok && (nurbs_hull_read(config->maker.command ? path : config->hull, &options,
-                                &problem->source) == NURBS_OK ||
-                core_fail("%s", nurbs_last_error()));
+    ok = ok && read_hull(problem, config->maker.command ? path : config->hull, &problem->source);
     ok = ok && sample_grid(problem) && prepare_parent(problem) && freeze(problem, NULL);
     problem->is_solved = ok;
     if (!ok)

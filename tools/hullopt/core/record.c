@@ -97,6 +97,8 @@ static const struct member EVALUATION[] = {
     FIGURE(breadth),
     LATER(outside),
     FIGURE(nu_s),
+    LATER(sinkage),
+    LATER(trim),
     FIGURE(propose_seconds),
     FIGURE(geometry_seconds),
     FIGURE(solve_seconds),

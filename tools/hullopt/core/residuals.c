@@ -319,6 +319,9 @@ bool descent_start(struct problem *base, struct search *search, struct descent *
 {
     const struct config *config = base->config;
     *d = (struct descent){.base = base, .search = search, .ok = true};
+    if (config->free_to_trim)
+        return core_fail("%s: flow.free_to_trim: derivatives are those of a hull held at rest",
+                         config->path);
     bayesopt_descent_problem *p = &d->problem;
     bayesopt_descent_problem_init(p);
     p->d = galv_model_modes(base->model);

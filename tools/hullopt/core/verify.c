@@ -1,6 +1,7 @@
 #include "core/verify.h"
 
 #include "cli.h"
+#include "core/attitude.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -98,12 +99,18 @@ size_t verify_plan(const struct problem *problem, struct verification rows[VERIF
     return n;
 }
 
-static bool solve_one(const igabem_hull *hull, const igabem_options *options, const char *who,
+/* Parent and optimum as they float at one speed. */
+struct pair {
+    double froude;
+    struct attitude parent, best;
+};
+
+static bool solve_one(const struct attitude *at, const igabem_options *options, const char *who,
                       double *cw, double *cw_pressure, size_t *dofs, struct verification *row)
 {
     igabem_solution *solution;
     igabem_forces forces;
-    bool ok = igabem_solve(hull, options, &solution) == IGABEM_OK;
+    bool ok = igabem_solve(at->body, options, &solution) == IGABEM_OK;
     if (ok) {
         ok = igabem_forces_compute(solution, &forces) == IGABEM_OK;
         igabem_solution_free(solution);
@@ -112,22 +119,22 @@ static bool solve_one(const igabem_hull *hull, const igabem_options *options, co
         snprintf(row->note, sizeof row->note, "%s: %.200s", who, igabem_last_error());
         return false;
     }
-    *cw = forces.cw;
-    *cw_pressure = forces.cw_pressure;
+    *cw = forces.cw * at->area;
+    *cw_pressure = forces.cw_pressure * at->area;
     *dofs = forces.dofs;
     return true;
 }
 
-static void solve_row(const igabem_hull *parent, const igabem_hull *best,
-                      const igabem_options *options, struct verification *row)
+static void solve_row(const struct pair *pair, bool has_best, const igabem_options *options,
+                      struct verification *row)
 {
     double start = cli_seconds();
-    if (solve_one(parent, options, "parent", &row->cw_parent, &row->cw_pressure_parent,
+    if (solve_one(&pair->parent, options, "parent", &row->cw_parent, &row->cw_pressure_parent,
                   &row->dofs_parent, row) &&
-        best != parent)
-        solve_one(best, options, "optimum", &row->cw_best, &row->cw_pressure_best, &row->dofs_best,
-                  row);
-    if (best == parent) {
+        has_best)
+        solve_one(&pair->best, options, "optimum", &row->cw_best, &row->cw_pressure_best,
+                  &row->dofs_best, row);
+    if (!has_best) {
         row->cw_best = row->cw_parent;
         row->cw_pressure_best = row->cw_pressure_parent;
         row->dofs_best = row->dofs_parent;
@@ -135,20 +142,40 @@ static void solve_row(const igabem_hull *parent, const igabem_hull *best,
     row->seconds = cli_seconds() - start;
 }
 
+static void pair_free(struct pair *pair)
+{
+    attitude_free(&pair->parent);
+    attitude_free(&pair->best);
+}
+
+/* Rows of one speed stand together as far as can be: the pair of the last one is kept. */
+static bool pair_find(const struct problem *problem, double froude, struct pair *pair)
+{
+    if (pair->froude == froude)
+        return true;
+    pair_free(pair);
+    *pair = (struct pair){.froude = froude};
+    return attitude_find(problem, &problem->parent, froude, &pair->parent) &&
+           attitude_find(problem, problem_best(problem), froude, &pair->best);
+}
+
 bool verify_run(const struct problem *problem, struct record *record,
                 const struct core_watch *watch)
 {
     struct verification rows[VERIFY_MOST], *known;
     igabem_options options[VERIFY_MOST];
+    struct pair pair = {.froude = NAN};
     size_t done, n = verify_plan(problem, rows, options);
     bool ok = record_verifications(record, &known, &done);
     free(known);
     for (size_t i = done; i < n && ok; i++) {
         core_show(watch, "verification", (double)i / (double)n, rows[i].label);
-        if (!core_goes_on(watch))
-            return false;
-        solve_row(problem->parent.body, problem_best(problem)->body, &options[i], &rows[i]);
+        ok = core_goes_on(watch) && pair_find(problem, options[i].froude, &pair);
+        if (!ok)
+            break;
+        solve_row(&pair, problem->best.hull, &options[i], &rows[i]);
         ok = record_put_verification(record, i, &rows[i]) && record_update_session(record);
     }
+    pair_free(&pair);
     return ok;
 }

@@ -1,5 +1,7 @@
 #include "core/waves.h"
 
+#include "core/attitude.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -72,14 +74,17 @@ static bool compute(const struct problem *problem, bool best, struct record *rec
     const struct design *design = best ? &problem->best : &problem->parent;
     igabem_solution *solution = NULL;
     struct waves w = {.elevation = NULL};
-    bool ok = igabem_solve(design->body, &problem->solver, &solution) == IGABEM_OK ||
-              core_fail("waves: %s", igabem_last_error());
+    struct attitude attitude;
+    bool ok = attitude_find(problem, design, problem->solver.froude, &attitude) &&
+              (igabem_solve(attitude.body, &problem->solver, &solution) == IGABEM_OK ||
+               core_fail("waves: %s", igabem_last_error()));
     ok = ok && make_field(problem, design, solution, &w) && elevations(solution, &w);
     const double frame[] = {w.x0, w.dx, w.y0, w.dy};
     ok = ok && record_put_array(record, NAMES[best][0], 1, 4, frame) &&
          record_put_array(record, NAMES[best][1], w.nx, w.ny, w.elevation);
     free(w.elevation);
     igabem_solution_free(solution);
+    attitude_free(&attitude);
     return ok;
 }
 

@@ -51,6 +51,10 @@ static json_t *evaluation(const struct results *r, const struct evaluation *e)
     put(o, "condition", e->condition);
     put(o, "volume", e->volume);
     put(o, "wetted_area", e->wetted_area);
+    if (r->problem->config->free_to_trim) {
+        put(o, "sinkage", e->sinkage);
+        put(o, "trim", e->trim);
+    }
     put_count(o, "dofs", e->dofs);
     put(o, "simplification_bound", e->bound);
     json_result_set(o, "latent", array(galv_model_modes(r->problem->model), e->u));

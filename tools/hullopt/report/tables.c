@@ -64,6 +64,12 @@ void report_particulars(FILE *out, const struct results *r)
     snprintf(label, sizeof label, "Total resistance, ITTC-57, form factor %g",
              r->problem->config->form_factor);
     total_row(out, label, "N", "%.2f", total[0], total[1]);
+    if (r->problem->config->free_to_trim) {
+        total_row(out, "Sinkage at flow.froude", "m", "%.5f", r->baseline->sinkage,
+                  r->best->sinkage);
+        total_row(out, "Trim at flow.froude, bow up", "degrees", "%.3f", r->baseline->trim,
+                  r->best->trim);
+    }
     for (size_t k = 0; k < constraints_count(); k++)
         constraint_row(out, r, k);
     for (size_t i = 0; i < n; i++) {

@@ -255,7 +255,8 @@ const double *designs_upper(const struct designs *d)
 bool designs_have_derivatives(const struct designs *d)
 {
     const struct problem *problem = designs_problem(d);
-    return !config_by_command(d->config) && slopes_has(problem, &problem->solver);
+    return !config_by_command(d->config) && !d->config->free_to_trim &&
+           slopes_has(problem, &problem->solver);
 }
 
 void designs_stop(struct designs *d)
