@@ -32,6 +32,30 @@ static bool keep_warnings(void *user_data, igabem_solution **solutions)
     return true;
 }
 
+/* Whether the ends of every parameter move points along y alone; of a command's hulls nobody knows.
+ */
+static bool moves_sideways(const struct plan *p)
+{
+    if (p->config.maker.command)
+        return true;
+    const nurbs_grid *grid = p->problem.grid;
+    size_t points = nurbs_grid_rows(grid) * nurbs_grid_columns(grid);
+    size_t n = galv_shape_parameters(p->shape);
+    double *x = cli_needed(calloc(n, sizeof *x));
+    double *d = cli_needed(malloc(3 * points * sizeof *d));
+    bool sideways = true;
+    for (size_t i = 0; i < 2 * n && sideways; i++) {
+        x[i / 2] = (i % 2 ? galv_shape_lower : galv_shape_upper)(p->shape)[i / 2];
+        sideways = galv_shape_displace(p->shape, points, nurbs_grid_points(grid), x, d) == GALV_OK;
+        for (size_t k = 0; k < 3 * points && sideways; k++)
+            sideways = k % 3 == 1 || d[k] == 0;
+        x[i / 2] = 0;
+    }
+    free(d);
+    free(x);
+    return sideways;
+}
+
 static bool read_plan(const struct options *options, struct plan *p)
 {
     if (!config_read(options->path, NULL, &p->config))
@@ -45,7 +69,7 @@ static bool read_plan(const struct options *options, struct plan *p)
     evaluate_parent(&p->problem, &p->parent, keep_warnings, p);
     bool descent = method_row(p->config.method)->kind == METHOD_DESCENT;
     if (descent && !p->parent.failed)
-        descent_cost(&p->problem, &p->coarse, &p->tangents);
+        descent_cost(&p->problem, moves_sideways(p), &p->coarse, &p->tangents);
     if (isnan(p->coarse))
         return cli_refuse("%s: the original cannot be solved on the mesh of the derivatives",
                           p->config.hull);

@@ -11,7 +11,9 @@ bool descent_run(struct search *search, double *u);
 
 /* What derivatives cost: seconds of one solve on the mesh of the differences, here of the original,
  * of the settings that are differenced (0: none is; NAN: there is no value), and solves on the mesh
- * of the values that those by tangents are worth (0: there are none). */
-void descent_cost(const struct problem *problem, double *coarse_seconds, double *solves);
+ * of the values that those by tangents are worth (0: there are none). sideways: points move along y
+ * alone, else all settings are differenced. */
+void descent_cost(const struct problem *problem, bool sideways, double *coarse_seconds,
+                  double *solves);
 
 #endif

@@ -260,13 +260,14 @@ static void coarsen(igabem_options *options)
     options->tolerance *= COARSE_TOLERANCE;
 }
 
-void descent_cost(const struct problem *problem, double *coarse_seconds, double *solves)
+void descent_cost(const struct problem *problem, bool sideways, double *coarse_seconds,
+                  double *solves)
 {
     igabem_options setting[SETTINGS_MOST], differenced[SETTINGS_MOST];
     igabem_solution *solutions[SETTINGS_MOST];
     size_t n = evaluate_settings(problem, setting), left = 0;
     for (size_t m = 0; m < n; m++)
-        if (!slopes_has(problem, &setting[m])) {
+        if (!sideways || !slopes_has(problem, &setting[m])) {
             differenced[left] = setting[m];
             coarsen(&differenced[left++]);
         }

@@ -1,5 +1,6 @@
 #include "core/slopes.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -148,7 +149,7 @@ static double clean(size_t n, const nurbs_patches *at, double step, double lengt
             move[0] = move[2] = 0;
         }
     }
-    return astray / largest;
+    return largest > 0 ? astray / largest : astray > 0 ? DBL_MAX : 0;
 }
 
 /* By the hull a step away; INFINITY where none can be built. */
@@ -185,9 +186,7 @@ static bool move_along(struct slopes *s, double *u, size_t k, size_t n, double *
         least = fmin(least, astray);
     }
     if (isfinite(least) && !(least <= ASTRAY))
-        core_fail("variable %zu moves points along x or z by up to %.2g of what it moves them "
-                  "sideways",
-                  k, least);
+        core_fail("variable %zu moves points along x or z too", k);
     return least <= ASTRAY;
 }
 
