@@ -253,6 +253,54 @@ galv_status galv_limits_entrance(const galv_limits *limits, const double *u, dou
     return GALV_OK;
 }
 
+/* Of a cell between two sections, twice its area: the cross product of its diagonals. */
+static void cell_normal(const double *p, const double *q, double n[3])
+{
+    double a[3], b[3];
+    for (int k = 0; k < 3; k++) {
+        a[k] = q[3 + k] - p[k];
+        b[k] = q[k] - p[3 + k];
+    }
+    for (int k = 0; k < 3; k++)
+        n[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+}
+
+static double cosine(const double a[3], const double b[3])
+{
+    double product = 0, square[2] = {0, 0};
+    for (int k = 0; k < 3; k++) {
+        product += a[k] * b[k];
+        square[0] += a[k] * a[k];
+        square[1] += b[k] * b[k];
+    }
+    return square[1] > 0 ? product / sqrt(square[0] * square[1]) : 0;
+}
+
+galv_status galv_limits_turn(const galv_limits *limits, const double *u, double *least)
+{
+    galv_status status = check(limits, u);
+    if (status || !least)
+        return status ? status : galv_fail(GALV_ERROR_ARGUMENT, "the result must be given");
+    size_t girth = limits->girth;
+    const double *parent = limits->model->parent;
+    double strip[2][3 * BLOCK], before[3], after[3];
+    *least = 1;
+    for (size_t i = 0; i + 1 < limits->sections && limits->bends; i++)
+        for (size_t first = 0; first + 1 < girth; first += BLOCK - 1) {
+            size_t n = girth - first < BLOCK ? girth - first : BLOCK;
+            for (size_t side = 0; side < 2; side++)
+                move_points(limits->model, u, (i + side) * girth + first, n, strip[side]);
+            for (size_t j = 0; j + 1 < n; j++) {
+                const double *p = parent + 3 * (i * girth + first + j);
+                cell_normal(p, p + 3 * girth, before);
+                cell_normal(strip[0] + 3 * j, strip[1] + 3 * j, after);
+                if (before[0] != 0 || before[1] != 0 || before[2] != 0)
+                    *least = fmin(*least, cosine(before, after));
+            }
+        }
+    return GALV_OK;
+}
+
 static double moved_volume(const galv_limits *limits, const double *u)
 {
     size_t girth = limits->girth;

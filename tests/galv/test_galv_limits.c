@@ -332,6 +332,45 @@ static void test_draft(void)
     galv_model_free(model);
 }
 
+/* A flat side along (1, 0.4) whose x is stretched: its normal turns by a known angle, and points
+ * back where x runs the other way. */
+static void test_turn(void)
+{
+    enum { SIDE_ROWS = 6, SIDE_COLUMNS = 4, SIDE = SIDE_ROWS * SIDE_COLUMNS };
+    static const double shares[] = {-0.2, 0.1, 0.2};
+    double points[3 * SIDE], field[3 * SIDE] = {0}, u[1], least;
+    const double lower[1] = {-1}, upper[1] = {1};
+    galv_limits *limits = NULL;
+    for (size_t k = 0; k < SIDE; k++) {
+        double x = (double)(k / SIDE_COLUMNS), z = 0.3 - 0.2 * (double)(k % SIDE_COLUMNS);
+        memcpy(points + 3 * k, (double[]){x, 0.4 * x, z}, 3 * sizeof *points);
+        field[3 * k] = 0.4 * x; /* y */
+    }
+    galv_shape *shape = NULL;
+    galv_model *model = NULL;
+    CU_ASSERT_EQUAL_FATAL(galv_shape_fields(1, SIDE, field, lower, upper, &shape), GALV_OK);
+    CU_ASSERT_EQUAL_FATAL(galv_build(shape, SIDE, points, galv_uniform(50, 1), NULL, &model),
+                          GALV_OK);
+    CU_ASSERT_EQUAL_FATAL(galv_limits_create(model, SIDE_ROWS, SIDE_COLUMNS, 1, &limits), GALV_OK);
+    for (size_t i = 0; i < sizeof shares / sizeof *shares; i++) {
+        double d[3 * SIDE], a = shares[i], grown = 1 + 0.4 * a;
+        for (size_t k = 0; k < (size_t)3 * SIDE; k++)
+            d[k] = a * field[k];
+        CU_ASSERT_EQUAL(galv_project(model, d, u), GALV_OK);
+        CU_ASSERT_EQUAL(galv_limits_turn(limits, u, &least), GALV_OK);
+        /* from the direction (1, 0.4) to (1 + 0.4 a, 0.4) */
+        CHECK_CLOSE(least, (grown + 0.16) / sqrt(1.16 * (grown * grown + 0.16)), 1e-12);
+    }
+    for (size_t k = 0; k < (size_t)3 * SIDE; k++)
+        field[k] *= -6; /* x from 1 to 1 - 2.4 a section */
+    CU_ASSERT_EQUAL(galv_project(model, field, u), GALV_OK);
+    CU_ASSERT_EQUAL(galv_limits_turn(limits, u, &least), GALV_OK);
+    CHECK_CLOSE(least, (-1.4 + 0.16) / sqrt(1.16 * (1.96 + 0.16)), 1e-12);
+    galv_limits_free(limits);
+    galv_model_free(model);
+    galv_shape_free(shape);
+}
+
 static void test_refusals(void)
 {
     static double field[3 * N], points[3 * N];
@@ -348,6 +387,7 @@ static void test_refusals(void)
     CU_ASSERT_EQUAL(galv_limits_volume(limits, u, &out), GALV_ERROR_ARGUMENT);
     CU_ASSERT_EQUAL(galv_limits_entrance(limits, u, &out), GALV_ERROR_ARGUMENT);
     CU_ASSERT_EQUAL(galv_limits_breadth(limits, u, &out, NULL), GALV_ERROR_ARGUMENT);
+    CU_ASSERT_EQUAL(galv_limits_turn(limits, u, &out), GALV_ERROR_ARGUMENT);
     points[7] = INFINITY;
     CU_ASSERT_EQUAL(galv_grid_volume(ROWS, COLUMNS, points, &out), GALV_ERROR_ARGUMENT);
     CU_ASSERT_PTR_NOT_NULL(strstr(galv_last_error(), "grid point 0,2"));
@@ -364,6 +404,7 @@ static const struct check_case cases[] = {
     {"gradient of the volume", test_volume_gradient},
     {"volume of longer hulls", test_volume_of_longer_hulls},
     {"volume and waterline at other drafts", test_draft},
+    {"how far cells turn", test_turn},
     {"refusals", test_refusals},
 };
 

@@ -232,6 +232,8 @@ static void test_limits(void)
     REFUSED(galv_build_parameters, shape, SECTIONS * GIRTH, grid, NULL);
     REFUSED(galv_limits_create, NULL, SECTIONS, GIRTH, 1, &made);
     REFUSED(galv_limits_create, model, SECTIONS, GIRTH, 1, NULL);
+    REFUSED(galv_limits_turn, NULL, u, &value);
+    REFUSED(galv_limits_turn, limits, u, NULL);
     REFUSED(galv_limits_breadth, NULL, u, &value, &value);
     REFUSED(galv_limits_breadth, limits, NULL, &value, &value);
     CU_ASSERT_EQUAL(galv_limits_breadth(limits, u, NULL, NULL), GALV_OK);

@@ -219,6 +219,24 @@ static void check_differences(const char *moved)
     free_problem();
 }
 
+/* The aft end drawn forward of midship: x runs back and forth along the hull. */
+static void takes_no_folded_grid(void)
+{
+    struct evaluation e;
+    read_problem("wigley",
+                 "bounds: [-0.7, 0.7]\ncontrol_points:\n  moved:\n"
+                 "    - {first: [0, 0], last: [0, 2], directions: [x], together: true}\n",
+                 "grid: {sections: 21, girth: 9}\nflow: {froude: 0.316}\n"
+                 "solver: {formulation: michell}\nsearch: {space: parameters}\n");
+    const double far[1] = {0.6}, less[1] = {0.3};
+    value(less, &e);
+    CU_ASSERT_TRUE(e.outside <= 0);
+    evaluation_start(1, "design", far, &e);
+    evaluate(&problem, &e, NULL, NULL);
+    CU_ASSERT_TRUE(e.outside > 0);
+    free_problem();
+}
+
 static void differences_what_moves_along_x_or_z(void)
 {
     check_differences("{first: [1, 0], last: [1, 1], directions: [y, z]}");
@@ -230,6 +248,7 @@ static const struct check_case cases[] = {
     {"translates the DTMB 5415", translates_the_dtmb_5415},
     {"raises a Wigley hull", raises_a_wigley_hull},
     {"moves the control points", moves_the_control_points},
+    {"takes no folded grid", takes_no_folded_grid},
     {"differences what moves along x or z", differences_what_moves_along_x_or_z},
 };
 

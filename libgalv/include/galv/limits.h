@@ -69,6 +69,11 @@ GALV_API galv_status galv_limits_breadth(const galv_limits *limits, const double
 GALV_API galv_status galv_limits_entrance(const galv_limits *limits, const double *u,
                                           double *ratio);
 
+/** How far the surface turns: the least cosine between the normals of a cell of the grid before and
+ * after. Below 0 a cell lies on its back, and the moved grid is folded. 1 where points move along y
+ * alone, which is not looked at. */
+GALV_API galv_status galv_limits_turn(const galv_limits *limits, const double *u, double *least);
+
 /** Volume over that of the parent. Where points move along y alone: 1 + g u with a gradient g, else
  * that of the moved grid. Where they move along x or z too: that of the moved grid, and with a
  * gradient what is lacking to g of the grid's own slope at the parent, times u. */

@@ -107,6 +107,8 @@ enum { OWN = sizeof TABLE / sizeof *TABLE, ROWS = OWN + PARTICULARS };
 
 /* What a step that ends on a limit may be outside. */
 static const double ROUNDING = 2e-5;
+/* Of the cosine by which a cell of the grid has turned: at 0 it stands on its edge. */
+static const double LEAST_TURN = 0.05;
 /* Grids are allowed to touch the centre plane. */
 static const double TOUCH = 1e-9;
 
@@ -230,15 +232,18 @@ int limits_evaluate(void *user_data, size_t d, const double *u, double *value)
 {
     const struct problem *problem = user_data;
     struct known known = {.problem = problem, .u = u};
+    double turn;
     (void)d;
     if (config_by_command(problem->config))
         return 0;
-    if (galv_limits_breadth(problem->limits, u, &known.least, &known.share) != GALV_OK)
+    if (galv_limits_breadth(problem->limits, u, &known.least, &known.share) != GALV_OK ||
+        galv_limits_turn(problem->limits, u, &turn) != GALV_OK)
         return 1;
     if (asks_particulars(problem->config) && !know_particulars(&known))
         return 1;
     value += snapshots_excess(problem, u, value);
-    *value++ = (parent_least(problem) - known.least) / problem_length(problem) - TOUCH;
+    double across = (parent_least(problem) - known.least) / problem_length(problem) - TOUCH;
+    *value++ = fmax(across, LEAST_TURN - turn);
     for (size_t k = 0; k < ROWS; k++) {
         const struct constraint c = row(k);
         double ratio[2];
