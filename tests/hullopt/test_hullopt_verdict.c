@@ -176,6 +176,21 @@ static void test_plan(void)
     CU_ASSERT_EQUAL(options[n - 2].formulation, IGABEM_FORMULATION_EXTERIOR);
     CU_ASSERT_EQUAL(options[n - 1].formulation, IGABEM_FORMULATION_DOUBLE_MODEL);
     CU_ASSERT_EQUAL(options[n - 1].froude, 0.41);
+    /* Spans of its own make a ladder of three meshes, a free surface included. */
+    frozen->elements_u = 30;
+    frozen->elements_v = 9;
+    frozen->refine_v = 1; /* as igabem_options_freeze() leaves it */
+    frozen->surface_cells = 48;
+    CU_ASSERT_EQUAL(verify_plan(&problem, rows, options), n + 1);
+    for (size_t i = 0; i < n + 1; i++) {
+        long thirds = rows[i].group == GROUP_COARSER      ? 2
+                      : rows[i].group == GROUP_RESOLUTION ? 6
+                                                          : 3;
+        CU_ASSERT_EQUAL(options[i].elements_u * options[i].refine, 10 * thirds);
+        CU_ASSERT_EQUAL(options[i].elements_v * options[i].refine_v, 3 * thirds);
+        CU_ASSERT_EQUAL(options[i].surface_cells, 16.0 * (double)thirds);
+    }
+    frozen->elements_u = frozen->elements_v = -1;
     frozen->formulation = IGABEM_FORMULATION_NEUMANN_KELVIN;
     config.verify_refine = 1;
     problem.speeds = 0;

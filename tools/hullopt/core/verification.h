@@ -12,6 +12,7 @@ enum verification_group {
     GROUP_RESOLUTION,
     GROUP_FILTER, /* the short-wave filter: each hull's own */
     GROUP_SPEED,
+    GROUP_COARSER, /* of the resolution: the third mesh of a ladder */
     GROUPS
 };
 const char *verification_group_name(enum verification_group group);

@@ -12,10 +12,12 @@
  * show how much the choice decides. Shares of the length. */
 static const double OTHER_STERNS[] = {0.18, 0.26};
 
+const double VERIFY_COARSER = 2.0 / 3;
+
 const char *verification_group_name(enum verification_group group)
 {
-    static const char *const names[GROUPS] = {"objective",  "formulation", "stern",
-                                              "resolution", "filter",      "speed"};
+    static const char *const names[GROUPS] = {"objective", "formulation", "stern",  "resolution",
+                                              "filter",    "speed",       "coarser"};
     return (unsigned)group < GROUPS ? names[group] : "";
 }
 
@@ -62,6 +64,34 @@ static void plan_models(const igabem_options *frozen, struct verification *rows,
     }
 }
 
+static void scale_surface(double factor, igabem_options *options)
+{
+    const double least = 4; /* of either, as igabem_options says */
+    if (options->surface_cells > 0)
+        options->surface_cells = fmax(least, round(factor * options->surface_cells));
+    if (options->surface_rows > 0)
+        options->surface_rows = fmax(least, round(factor * options->surface_rows));
+}
+
+/* With the mesh of the search three, where the density has spans of its own. */
+static void plan_ladder(int refine, const igabem_options *frozen, struct verification *rows,
+                        igabem_options *options, size_t *n)
+{
+    char label[80];
+    igabem_options finer = *frozen, coarser = *frozen;
+    finer.refine *= refine;
+    if (finer.refine_v > 0)
+        finer.refine_v *= refine;
+    scale_surface(refine, &finer);
+    snprintf(label, sizeof label, "%d times the resolution", refine);
+    add(rows, options, n, GROUP_RESOLUTION, label, &finer);
+    coarser.elements_u = (int)lround(VERIFY_COARSER * frozen->elements_u);
+    coarser.elements_v = (int)lround(VERIFY_COARSER * frozen->elements_v);
+    scale_surface(VERIFY_COARSER, &coarser);
+    if (coarser.elements_u >= 2 && coarser.elements_v >= 2)
+        add(rows, options, n, GROUP_COARSER, "two thirds of the resolution", &coarser);
+}
+
 size_t verify_plan(const struct problem *problem, struct verification rows[VERIFY_MOST],
                    igabem_options options[VERIFY_MOST])
 {
@@ -73,12 +103,8 @@ size_t verify_plan(const struct problem *problem, struct verification rows[VERIF
     if (config->verify_refine == 0)
         return n;
     plan_models(frozen, rows, options, &n);
-    if (config->verify_refine > 1) {
-        igabem_options finer = *frozen;
-        finer.refine *= config->verify_refine;
-        snprintf(label, sizeof label, "%d times the resolution", config->verify_refine);
-        add(rows, options, &n, GROUP_RESOLUTION, label, &finer);
-    }
+    if (config->verify_refine > 1)
+        plan_ladder(config->verify_refine, frozen, rows, options, &n);
     if (isfinite(frozen->cutoff_angle)) {
         igabem_options own = *frozen;
         own.cutoff_angle = own.stem_limit = NAN;

@@ -8,6 +8,9 @@
 
 enum { VERIFY_MOST = 32 };
 
+/* Of the coarser mesh, elements each way over those of the search. */
+extern const double VERIFY_COARSER;
+
 /* The rows of a verification with their settings; results NAN. Returns how many. */
 size_t verify_plan(const struct problem *problem, struct verification rows[VERIFY_MOST],
                    igabem_options options[VERIFY_MOST]);

@@ -4,6 +4,7 @@
 #include "core/front.h"
 #include "core/objective.h"
 #include "core/optimise.h"
+#include "core/verify.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -170,4 +171,23 @@ struct results_times results_times(const struct results *r)
     t.propose /= n;
     t.evaluation = t.geometry + t.solve;
     return t;
+}
+
+bool results_ladder(const struct results *r, struct results_ladder *ladder)
+{
+    *ladder = (struct results_ladder){.cw = {NAN, NAN, NAN}};
+    for (size_t i = 0; i < r->n_rows; i++) {
+        const struct verification *v = &r->rows[i];
+        if (v->group == GROUP_COARSER)
+            ladder->cw[0] = v->cw_best;
+        if (v->group == GROUP_OBJECTIVE)
+            ladder->cw[1] = v->cw_best;
+        if (v->group == GROUP_RESOLUTION) {
+            ladder->cw[2] = v->cw_best;
+            ladder->refine = r->problem->config->verify_refine;
+        }
+    }
+    const double width[3] = {1 / VERIFY_COARSER, 1, 1 / ladder->refine};
+    return isfinite(ladder->cw[0] + ladder->cw[1] + ladder->cw[2]) &&
+           igabem_ladder_order(width, ladder->cw, &ladder->order, &ladder->limit) == IGABEM_OK;
 }

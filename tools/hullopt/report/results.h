@@ -52,6 +52,14 @@ const char *results_statement(const struct results *results);
 /* Total resistance of the parent and of the best, N: objective_total_resistance(). */
 void results_total_resistance(const struct results *results, double total[2]);
 
+/* C_w of the optimum on two thirds of the resolution, on that of the search, and on the finer one;
+ * observed order and limit, NAN where the three fit no power of the width. */
+struct results_ladder {
+    double cw[3], refine, order, limit;
+};
+/* False: not all three were solved. */
+bool results_ladder(const struct results *results, struct results_ladder *ladder);
+
 /* Mean seconds of one evaluation: whole, geometry, solve, proposal. Failed ones count. */
 struct results_times {
     double evaluation, geometry, solve, propose;

@@ -152,6 +152,19 @@ static json_t *verification(const struct results *r)
     return list;
 }
 
+/* Of the optimum; null where the third mesh is missing. */
+static json_t *ladder(const struct results *r)
+{
+    struct results_ladder l;
+    if (!results_ladder(r, &l))
+        return json_null();
+    json_t *o = json_object();
+    json_result_set(o, "cw", array(3, l.cw));
+    put(o, "order", l.order);
+    put(o, "limit", l.limit);
+    return o;
+}
+
 static json_t *robust(const struct verdict *v)
 {
     json_t *o = json_object();
@@ -319,6 +332,7 @@ json_t *summary_make(const struct results *r)
     json_result_set(o, "constraints", constraints(r));
     json_result_set(o, "particulars", particulars(r));
     json_result_set(o, "verification", verification(r));
+    json_result_set(o, "ladder", ladder(r));
     json_result_set(o, "robust", robust(&r->verdict));
     json_result_set(o, "agreement", agreement(r));
     json_result_set(o, "model", model(&r->model));

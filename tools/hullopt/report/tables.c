@@ -129,6 +129,21 @@ static void judge_cell(FILE *out, const struct verification *v, const struct ver
     fprintf(out, "<td><span class=\"tag %s\">%s</span></td>", tone, text);
 }
 
+static void ladder(FILE *out, const struct results *r)
+{
+    struct results_ladder l;
+    if (!results_ladder(r, &l))
+        return;
+    fprintf(out,
+            "<p>The mesh: 10³ C<sub>w</sub> of the optimum is %.4f on two thirds of the "
+            "resolution, %.4f on that of the search and %.4f on %g times it, ",
+            1e3 * l.cw[0], 1e3 * l.cw[1], 1e3 * l.cw[2], l.refine);
+    if (isnan(l.order))
+        fputs("which follows no power of the width yet.</p>", out);
+    else
+        fprintf(out, "of observed order %.1f towards %.4f.</p>", l.order, 1e3 * l.limit);
+}
+
 void report_verification(FILE *out, const struct results *r)
 {
     if (r->n_rows == 0)
@@ -158,7 +173,9 @@ void report_verification(FILE *out, const struct results *r)
             fputs("</td></tr>\n", out);
         }
     }
-    fputs("</tbody></table></section>\n", out);
+    fputs("</tbody></table>", out);
+    ladder(out, r);
+    fputs("</section>\n", out);
 }
 
 /* Lines of the canonical text are in the order of the table; one of an older run may lack rows. */

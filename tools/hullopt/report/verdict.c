@@ -63,6 +63,7 @@ static void count(const struct verification *row, struct verdict *v)
         v->speeds = (!v->has_speeds || v->speeds) && gain >= -NO_CHANGE;
         v->has_speeds = true;
         break;
+    case GROUP_COARSER:
     case GROUPS:
         break;
     }
