@@ -320,7 +320,7 @@ static nurbs_status check_image(cover *c, const face_trace *trace, const nurbs_c
         nurbs_status status = nurbs_curve_eval(trace->curve, 0, 1, &t, p);
         if (status == NURBS_OK)
             status = nurbs_curve_eval(curve, 0, 1, &u, uv);
-        for (int d = 0; d < 2; d++) {
+        for (int d = 0; d < 2 && status == NURBS_OK; d++) {
             const double *knots = nurbs_surface_knots(c->surface, d);
             uv[d] = fmin(fmax(uv[d], knots[0]), knots[nurbs_surface_size(c->surface, d)]);
         }

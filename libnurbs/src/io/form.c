@@ -386,9 +386,11 @@ nurbs_status form_invert(const cad_form *f, const double p[3], double ab[2], boo
         status = invert_profile(f, flat, &ab[0]);
         if (status == NURBS_OK)
             status = nurbs_curve_eval(f->curve, 0, 1, &ab[0], c);
+        if (status != NURBS_OK)
+            return status;
         minus3(p, c, q);
         ab[1] = dot3(q, f->frame[2]);
-        return status;
+        return NURBS_OK;
     }
     default:
         return invert_spline(f, p, ab, loose);

@@ -212,7 +212,7 @@ nurbs_status lines_grid(size_t n, const line *const *lines, size_t columns, nurb
         status = nurbs_grid_create(n, columns, points, grid);
     }
     *corners = chosen;
-    for (size_t k = 0; k < chosen; k++)
+    for (size_t k = 0; k < chosen && !status; k++)
         corner[k] = column[k + 1];
     free(points);
     tracks_free(&t);
