@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -108,7 +109,9 @@ static bool write_shape(hid_t h5, const struct shape_definition *shape)
 
 static bool write_all(hid_t h5, const struct model_file *file)
 {
-    hid_t shape = H5Gcreate2(h5, "shape", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    hid_t untimed = H5Pcreate(H5P_GROUP_CREATE), shape = -1;
+    if (untimed >= 0 && H5Pset_obj_track_times(untimed, false) >= 0)
+        shape = H5Gcreate2(h5, "shape", H5P_DEFAULT, untimed, H5P_DEFAULT);
     bool ok = shape >= 0 && h5_write_text(h5, "format", "galv-model") &&
               h5_write_count(h5, "version", VERSION) && write_model(h5, file->model) &&
               write_shape(shape, &file->shape) && h5_write_count(h5, "sections", file->sections) &&
@@ -123,7 +126,54 @@ static bool write_all(hid_t h5, const struct model_file *file)
               h5_write_count(h5, "rows", file->rows);
     if (shape >= 0)
         H5Gclose(shape);
+    if (untimed >= 0)
+        H5Pclose(untimed);
     return ok;
+}
+
+static uint32_t turn(uint32_t x, int bits)
+{
+    return x << bits | x >> (32 - bits);
+}
+
+/* Checksum of the first 44 bytes of a file of superblock 2 (HDF5 File Format Specification 3.0,
+ * II.A): Jenkins, lookup3, hashlittle(). */
+static uint32_t superblock_checksum(const unsigned char *bytes)
+{
+    enum { WORDS = 11 };
+    static const int mixing[6] = {4, 6, 8, 16, 19, 4}, last[7] = {14, 11, 25, 16, 4, 14, 24};
+    uint32_t word[WORDS + 1] = {0}, s[3];
+    for (int i = 0; i < 4 * WORDS; i++)
+        word[i / 4] |= (uint32_t)bytes[i] << 8 * (i % 4);
+    for (int k = 0; k < 3; k++)
+        s[k] = 0xdeadbeef + 4 * WORDS;
+    for (int i = 0; i < 12; i += 3) {
+        for (int k = 0; k < 3; k++)
+            s[k] += word[i + k];
+        for (int k = 0; k < 6 && i < 9; k++) { /* a -= c; a ^= c turned; c += b, and round */
+            uint32_t *a = &s[k % 3], *b = &s[(k + 1) % 3], *c = &s[(k + 2) % 3];
+            *a = (*a - *c) ^ turn(*c, mixing[k]);
+            *c += *b;
+        }
+    }
+    for (int k = 0; k < 7; k++) { /* c ^= b; c -= b turned; a, b, c in turn */
+        uint32_t *c = &s[(k + 2) % 3], *b = &s[(k + 1) % 3];
+        *c = (*c ^ *b) - turn(*b, last[k]);
+    }
+    return s[2];
+}
+
+/* The image tells that it is open no more; HDF5 clears that flag, and leaves the checksum of the
+ * open file. */
+static bool seal(unsigned char *image, size_t size)
+{
+    enum { VERSION_AT = 8, FLAGS_AT = 11, CHECKSUM_AT = 44, LENGTH = 48 };
+    if (size < LENGTH || image[VERSION_AT] != 2)
+        return false;
+    uint32_t sum = superblock_checksum(image);
+    for (int k = 0; k < 4; k++)
+        image[CHECKSUM_AT + k] = (unsigned char)(sum >> 8 * k);
+    return image[FLAGS_AT] == 0;
 }
 
 /* The file as bytes, made in memory: HDF5 has no way back from a disk that is full. NULL: not made.
@@ -132,16 +182,20 @@ static void *file_image(const struct model_file *file, size_t *size)
 {
     enum { STEP = 1 << 20 };
     void *image = NULL;
-    hid_t how = H5Pcreate(H5P_FILE_ACCESS), h5 = -1;
-    if (how >= 0 && H5Pset_fapl_core(how, STEP, false) >= 0)
-        h5 = H5Fcreate("model", H5F_ACC_TRUNC, H5P_DEFAULT, how);
+    hid_t how = H5Pcreate(H5P_FILE_ACCESS), untimed = H5Pcreate(H5P_FILE_CREATE), h5 = -1;
+    /* From 1.8 on the format has checksums of all but the numbers: a damaged file of an older one
+     * makes HDF5 1.10 read beyond its memory. */
+    if (how >= 0 && untimed >= 0 && H5Pset_fapl_core(how, STEP, false) >= 0 &&
+        H5Pset_libver_bounds(how, H5F_LIBVER_V18, H5F_LIBVER_V18) >= 0 &&
+        H5Pset_obj_track_times(untimed, false) >= 0)
+        h5 = H5Fcreate("model", H5F_ACC_TRUNC, untimed, how);
     ssize_t n = -1;
     if (h5 >= 0 && write_all(h5, file) && H5Fflush(h5, H5F_SCOPE_LOCAL) >= 0)
         n = H5Fget_file_image(h5, NULL, 0);
     if (n > 0) {
         *size = (size_t)n;
         image = cli_needed(malloc(*size));
-        if (H5Fget_file_image(h5, image, *size) != n) {
+        if (H5Fget_file_image(h5, image, *size) != n || !seal(image, *size)) {
             free(image);
             image = NULL;
         }
@@ -150,6 +204,8 @@ static void *file_image(const struct model_file *file, size_t *size)
         H5Fclose(h5);
     if (how >= 0)
         H5Pclose(how);
+    if (untimed >= 0)
+        H5Pclose(untimed);
     return image;
 }
 
