@@ -539,7 +539,7 @@ static void test_orders(void)
     json_decref(whole);
 }
 
-/* Cut anywhere, a model file is refused with a sentence. */
+/* Cut anywhere, or with a bit of its headers changed, a model file is refused with a sentence. */
 static void test_bad_models_are_refused(void)
 {
     write_inputs();
@@ -555,6 +555,14 @@ static void test_bad_models_are_refused(void)
         fwrite(bytes, 1, length * (size_t)cut / 8, stream);
         fclose(stream);
         expect("info cut.h5", 1, "cut.h5");
+    }
+    for (size_t at = 8; at < 168; at += 13) { /* superblock and header of the root */
+        bytes[at] ^= 0x10;
+        stream = fopen(scratch("bent.h5"), "wb");
+        fwrite(bytes, 1, length, stream);
+        fclose(stream);
+        expect("info bent.h5", 1, "bent.h5");
+        bytes[at] ^= 0x10;
     }
     expect("info hull.csv", 1, "hull.csv");
     expect("info none.h5", 1, "none.h5");
