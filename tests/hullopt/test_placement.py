@@ -75,6 +75,14 @@ assert abs(here["trim"] - math.degrees(there["trim"])) < 0.02, (here["trim"], th
 held = told("hullopt", "evaluate", config("flow: {froude: 0.35}\n"), "--latent", zeros, "--json")
 assert "sinkage" not in held and abs(here["rw"] / held["rw"] - 1) > 1e-3, (here["rw"], held["rw"])
 
+# Friction of the surface as it floats: igabem's wetted hull in that attitude.
+running = told("hullopt", "evaluate", config(free + "objective: {quantity: total-resistance, surface: running}\n"),
+               "--latent", zeros, "--json")
+text = call("igabem", "solve", HULL, "--fr", "0.35", "--free-to-trim", "--elements", "12x5", "--tolerance", "1e-4").stdout
+surface = float(re.search(r"S ([0-9.]+) m", text).group(1)) / rest["wetted_area"]
+friction = [one["rt"] - one["rw"] for one in (here, running)]
+assert abs(running["rw"] / here["rw"] - 1) < 1e-9 and abs(friction[1] / friction[0] / surface - 1) < 2e-3, (friction, surface)
+
 # A run: the objective of the verification is that of the search, in the attitude of each hull.
 summary = told("hullopt", "run", config(free), "--out", "run", "--json")
 row = summary["verification"][0]

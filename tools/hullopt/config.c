@@ -43,6 +43,7 @@ static const struct setting_word OTHERS[] = {{"none", QUANTITY_NONE},
                                              {NULL, 0}};
 static const struct setting_word OWN_SPEED[] = {{"flow.froude", NAN}, {NULL, 0}};
 
+static const struct setting_word SURFACES[] = {{"rest", 0}, {"running", 1}, {NULL, 0}};
 static const struct setting_word SPACES[] = {{"latent", 0}, {"parameters", 1}, {NULL, 0}};
 
 static const char *formulation(int value)
@@ -192,6 +193,9 @@ static const struct setting ROWS[] = {
     ROW("objective.quantity", CHOICE, quantity,
         "what is lowered: C_w, or the resistance of waves or of the ship, N", .words = QUANTITIES,
         .otherwise = "wave-coefficient"),
+    ROW("objective.surface", CHOICE, running_surface,
+        "wetted surface of the friction: at rest, or as the design floats by flow.free_to_trim",
+        .words = SURFACES, .otherwise = "rest"),
     ROW("objective.weights", NUMBER, weight,
         "of its values at flow.froude and at each of verification.froude", SETTING_FROM(0, 1e6),
         .n_most = 1 + CONFIG_FROUDE_MOST, .count = offsetof(struct config, weights)),
@@ -499,6 +503,8 @@ static void check_attitude(struct settings_source *source, const struct config *
         settings_complain(source, "flow.free_to_trim",
                           "needs the pressure on the hull, which %s has not",
                           igabem_formulation_name(c->solver.formulation));
+    if (c->running_surface && !c->free_to_trim)
+        settings_complain(source, "objective.surface", "is running, which needs flow.free_to_trim");
     if (c->free_to_trim &&
         (method_row(c->method)->kind == METHOD_DESCENT || c->design == CONFIG_DESIGN_FORECAST))
         settings_complain(source, "flow.free_to_trim",

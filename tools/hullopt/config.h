@@ -82,6 +82,7 @@ struct config {
     double station[CONFIG_PLACES_MOST], hard_point[CONFIG_PLACES_MOST], box[CONFIG_PLACES_MOST];
     int quantity; /* one of enum quantity */
     struct config_objective other[OBJECTIVES_MOST - 1];
+    int running_surface;           /* friction is that of the surface as the design floats */
     double viscosity, form_factor; /* of its friction: m^2/s, k */
     size_t weights; /* of flow.froude and each of verify_froude; 0: flow.froude alone */
     double weight[1 + CONFIG_FROUDE_MOST];

@@ -174,7 +174,7 @@ static bool solve(const struct problem *problem, const struct design *design, st
 {
     igabem_solution *solutions[SETTINGS_MOST] = {NULL};
     igabem_options settings[SETTINGS_MOST];
-    struct attitude attitude[1 + CONFIG_FROUDE_MOST];
+    struct attitude attitude[SURFACES_MOST];
     double area[SETTINGS_MOST];
     size_t n = evaluate_settings(problem, settings), found = 0;
     e->models = problem->config->models;
@@ -188,6 +188,9 @@ static bool solve(const struct problem *problem, const struct design *design, st
          (!viewer.look || viewer.look(viewer.user_data, solutions));
     e->sinkage = attitude[0].sinkage;
     e->trim = attitude[0].trim;
+    e->surfaces = problem->config->free_to_trim ? found : 0;
+    for (size_t j = 0; j < e->surfaces; j++)
+        e->surface[j] = attitude[j].area;
     for (size_t i = 0; i < n; i++)
         igabem_solution_free(solutions[i]);
     while (found)

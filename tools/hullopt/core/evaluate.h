@@ -9,6 +9,7 @@
 enum {
     REASON_SIZE = 256,
     SPEEDS_MOST = (1 + CONFIG_MODELS_MOST) * CONFIG_FROUDE_MOST,
+    SURFACES_MOST = 1 + CONFIG_FROUDE_MOST,
     SETTINGS_MOST = 1 + CONFIG_MODELS_MOST + SPEEDS_MOST
 };
 
@@ -35,6 +36,8 @@ struct evaluation {
     double particular[PARTICULARS][2]; /* of particulars_of() */
     double nu_s;                       /* of the waterline, as design_nu_s() */
     double sinkage, trim;              /* at flow.froude, of struct attitude */
+    size_t surfaces;               /* of surface: at flow.froude and the other speeds; 0: held */
+    double surface[SURFACES_MOST]; /* wetted by the still water there, over that at rest */
     size_t dofs;
     double propose_seconds, geometry_seconds, solve_seconds;
     /* Of core/remote.h: servers that did not answer, bit by bit, why the last did not, and whether

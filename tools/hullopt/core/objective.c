@@ -34,8 +34,9 @@ static double at_speed(const struct config *config, double weight, int quantity,
 {
     double froude = j ? config->verify_froude[j - 1] : config->solver.froude;
     double cw = j ? e->cw_speed[(j - 1) * (1 + e->models) + m] : m ? e->cw_model[m - 1] : e->cw;
+    double surface = config->running_surface && j < e->surfaces ? e->surface[j] : 1;
     return weight * force(config, quantity, length, froude, e) *
-           (cw + friction(config, quantity, length, froude));
+           (cw + surface * friction(config, quantity, length, froude));
 }
 
 /* The first objective's quantity by model m. */

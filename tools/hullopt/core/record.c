@@ -521,23 +521,24 @@ static size_t unpack_list(const char *name, size_t most, const bayesopt_point *p
 }
 
 static const char MODEL[] = "cw_model", SPEED[] = "cw_speed", PARTICULAR[] = "particular",
-                  TOLD[] = "told";
+                  TOLD[] = "told", SURFACE[] = "surface";
 
 bool record_tell(struct record *record, struct evaluation *e, const double *ratio)
 {
     enum { NUMBERS = 2 * PARTICULARS };
-    enum { LISTS = CONFIG_MODELS_MOST + SPEEDS_MOST + NUMBERS + OBJECTIVES_MOST };
+    enum { LISTS = CONFIG_MODELS_MOST + SPEEDS_MOST + NUMBERS + OBJECTIVES_MOST + SURFACES_MOST };
     bayesopt_attribute attributes[MEMBERS_MOST + LISTS];
     char names[LISTS][NAME_SIZE];
     size_t told = OBJECTIVES_MOST - 1;
     while (told && isnan(e->told[told - 1]))
         told--;
     size_t n = pack(LENGTH(EVALUATION), EVALUATION, e, attributes);
-    n += pack_list(MODEL, e->models, e->cw_model, names, attributes + n);
-    n += pack_list(SPEED, e->speeds, e->cw_speed, names + e->models, attributes + n);
-    n += pack_list(PARTICULAR, NUMBERS, e->particular[0], names + e->models + e->speeds,
-                   attributes + n);
-    n += pack_list(TOLD, told, e->told, names + e->models + e->speeds + NUMBERS, attributes + n);
+    bayesopt_attribute *list = attributes + n;
+    size_t k = pack_list(MODEL, e->models, e->cw_model, names, list);
+    k += pack_list(SPEED, e->speeds, e->cw_speed, names + k, list + k);
+    k += pack_list(PARTICULAR, NUMBERS, e->particular[0], names + k, list + k);
+    k += pack_list(TOLD, told, e->told, names + k, list + k);
+    n += k + pack_list(SURFACE, e->surfaces, e->surface, names + k, list + k);
     bool first = bayesopt_count(record->bo) == 0; /* the parent keeps 0 */
     const bayesopt_result result = {.f = e->failed ? NAN : e->objective,
                                     .constraints = ratio,
@@ -577,12 +578,13 @@ static bool read_evaluation(const bayesopt_point *point, bool first, struct eval
         return false;
     size_t n;
     if (!count_list(MODEL, point, &n) || !count_list(SPEED, point, &n) ||
-        !count_list(PARTICULAR, point, &n))
+        !count_list(PARTICULAR, point, &n) || !count_list(SURFACE, point, &n))
         return false;
     if (!e->failed && !isfinite(e->cw))
         return core_fail("%s: 'cw' is damaged", what);
     e->models = unpack_list(MODEL, CONFIG_MODELS_MOST, point, e->cw_model);
     e->speeds = unpack_list(SPEED, SPEEDS_MOST, point, e->cw_speed);
+    e->surfaces = unpack_list(SURFACE, SURFACES_MOST, point, e->surface);
     unpack_numbers(TOLD, OBJECTIVES_MOST - 1, point, e->told);
     unpack_numbers(PARTICULAR, 2 * PARTICULARS, point, e->particular[0]);
     return true;

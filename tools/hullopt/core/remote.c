@@ -134,6 +134,9 @@ static bool open_one(struct umbridge *server, const char *url, const struct prob
 bool remote_open(struct remote *remote, const struct problem *problem, const char *urls)
 {
     *remote = (struct remote){.urls = strdup(urls), .config = problem->config};
+    if (problem->config->running_surface)
+        return core_fail("--server: servers do not tell the surface that objective.surface asks "
+                         "for");
     json_t *identity = identity_of(problem);
     char *rest = remote->urls, *url;
     bool ok = (rest || core_no_memory()) && identity;
