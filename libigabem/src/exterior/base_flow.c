@@ -33,6 +33,40 @@ static igabem_status add_row(const struct layer_surface layer[2], const struct t
     return status;
 }
 
+igabem_status base_flow_system(const struct influence *hull, const struct transom *transom,
+                               const struct influence *face, double *rows, double *right)
+{
+    size_t n = hull->density->n, coefficients = transom ? transom->coefficients : 1;
+    const struct layer_surface layer[2] = {{.influence = hull, .symmetric = true},
+                                           {.influence = face, .symmetric = true}};
+    igabem_status result = IGABEM_OK;
+    memset(rows, 0, n * n * sizeof *rows);
+#pragma omp parallel num_threads(hull->threads)
+    {
+        struct layer_work work[2];
+        double *rim = malloc(coefficients * sizeof *rim);
+        igabem_status status = result;
+        memset(work, 0, sizeof work);
+        for (int k = 0; k < (transom ? 2 : 1) && status == IGABEM_OK; k++)
+            status = rim ? layer_work_create(&layer[k], &work[k]) : no_memory();
+#pragma omp for schedule(dynamic, 4)
+        for (size_t i = 0; i < n; i++)
+            if (status == IGABEM_OK) {
+                struct layer_point point;
+                layer_collocation(hull, i, &point, rows + i * n);
+                status = add_row(layer, transom, &point, work, rim, rows + i * n, &right[i]);
+            }
+        free(rim);
+        for (int k = 0; k < (transom ? 2 : 1); k++)
+            layer_work_free(&work[k]);
+#pragma omp critical(igabem_base_flow)
+        if (status != IGABEM_OK)
+            result = status;
+    }
+    /* by the calling thread, which is told why */
+    return result == IGABEM_OK ? result : no_memory();
+}
+
 /* rows are row by row, so LAPACK sees the transpose. */
 static igabem_status factor_and_solve(size_t n, double *rows, double *right)
 {
@@ -54,38 +88,14 @@ static igabem_status factor_and_solve(size_t n, double *rows, double *right)
 static igabem_status potential(const struct influence *hull, const struct transom *transom,
                                const struct influence *face, double *on_hull)
 {
-    size_t n = hull->density->n, coefficients = transom ? transom->coefficients : 1;
-    const struct layer_surface layer[2] = {{.influence = hull, .symmetric = true},
-                                           {.influence = face, .symmetric = true}};
-    double *rows = calloc(n * n, sizeof *rows);
-    igabem_status result = rows ? IGABEM_OK : no_memory();
-#pragma omp parallel num_threads(hull->threads)
-    {
-        struct layer_work work[2];
-        double *rim = malloc(coefficients * sizeof *rim);
-        igabem_status status = result;
-        memset(work, 0, sizeof work);
-        for (int k = 0; k < (transom ? 2 : 1) && status == IGABEM_OK; k++)
-            status = rim ? layer_work_create(&layer[k], &work[k]) : no_memory();
-#pragma omp for schedule(dynamic, 4)
-        for (size_t i = 0; i < n; i++)
-            if (status == IGABEM_OK) {
-                struct layer_point point;
-                layer_collocation(hull, i, &point, rows + i * n);
-                status = add_row(layer, transom, &point, work, rim, rows + i * n, &on_hull[i]);
-            }
-        free(rim);
-        for (int k = 0; k < (transom ? 2 : 1); k++)
-            layer_work_free(&work[k]);
-#pragma omp critical(igabem_base_flow)
-        if (status != IGABEM_OK)
-            result = status;
-    }
-    /* by the calling thread, which is told why */
-    if (result == IGABEM_OK)
-        result = factor_and_solve(n, rows, on_hull);
+    size_t n = hull->density->n;
+    double *rows = malloc(n * n * sizeof *rows);
+    igabem_status status =
+        rows ? base_flow_system(hull, transom, face, rows, on_hull) : no_memory();
+    if (status == IGABEM_OK)
+        status = factor_and_solve(n, rows, on_hull);
     free(rows);
-    return result == IGABEM_ERROR_MEMORY ? no_memory() : result;
+    return status;
 }
 
 /* Derivatives of Phi at the middles of the cells. */
@@ -155,6 +165,18 @@ double base_flow_known(const struct base_point *point)
     const double *p = point->gradient, *h = point->second, w[2] = {p[0] - 1.0, p[1]};
     double along = h[0] * p[0] + h[1] * p[1], aside = h[1] * p[0] + h[2] * p[1];
     return 2.0 * (w[0] * along + w[1] * aside) + 0.5 * (p[0] * p[0] + p[1] * p[1]) * (h[0] + h[2]);
+}
+
+double base_flow_known_change(const struct base_point *point, const double d[5])
+{
+    const double *p = point->gradient, *h = point->second, *e = d + 2;
+    const double w[2] = {p[0] - 1.0, p[1]};
+    double along = h[0] * p[0] + h[1] * p[1], aside = h[1] * p[0] + h[2] * p[1];
+    double d_along = e[0] * p[0] + h[0] * d[0] + e[1] * p[1] + h[1] * d[1];
+    double d_aside = e[1] * p[0] + h[1] * d[0] + e[2] * p[1] + h[2] * d[1];
+    return 2.0 * (d[0] * along + w[0] * d_along + d[1] * aside + w[1] * d_aside) +
+           (p[0] * d[0] + p[1] * d[1]) * (h[0] + h[2]) +
+           0.5 * (p[0] * p[0] + p[1] * p[1]) * (e[0] + e[2]);
 }
 
 /* The lower of two neighbouring middles and the share of the other, beyond the last linear. */

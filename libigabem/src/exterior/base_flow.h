@@ -15,9 +15,15 @@ igabem_status base_flow_create(const struct influence *hull, const struct free_s
                                const struct transom *transom, const struct influence *face,
                                double *on_hull, struct base_point **points);
 
+/* The system of Phi on the hull: fills rows[n][n] and right[n]. */
+igabem_status base_flow_system(const struct influence *hull, const struct transom *transom,
+                               const struct influence *face, double *rows, double *right);
+
 /* What is known in the condition on the surface, over the speed: it holds second(phi) less this, in
  * place of phi_xx. */
 double base_flow_known(const struct base_point *point);
+/* Its change with gradient and second derivatives of the point. */
+double base_flow_known_change(const struct base_point *point, const double change[5]);
 
 /* grad Phi at a place. */
 void base_flow_at(const struct free_surface *surface, const struct base_point *points,

@@ -347,8 +347,8 @@ void operator_gradient(const struct free_surface *surface, const struct free_sur
     gradient[1] = place->eta_y * across.sum;
 }
 
-void operator_apply(const struct free_surface *surface, const double *phi, double *value,
-                    double *second, double *odd)
+void operator_apply(const struct free_surface *surface, const struct base_point *base,
+                    const double *phi, double *value, double *second, double *odd)
 {
     struct across across;
     fill_across(&across);
@@ -357,8 +357,8 @@ void operator_apply(const struct free_surface *surface, const double *phi, doubl
         struct target to[3] = {{.surface = surface, .phi = phi}};
         to[1] = to[2] = to[0];
         add_product(&to[0], i, j, spline_along[0], across.value, 1.0);
-        second_row(&to[1], &across, &stream, i, j);
-        odd_row(&to[2], &across, &stream, i, j);
+        second_row(&to[1], &across, base ? &base[c] : &stream, i, j);
+        odd_row(&to[2], &across, base ? &base[c] : &stream, i, j);
         value[c] = to[0].sum;
         second[c] = to[1].sum;
         odd[c] = to[2].sum;
@@ -434,30 +434,71 @@ static void add_turns(size_t rows, size_t count, const struct turn *turn, struct
     }
 }
 
-/* The explicit factors of second_row() and odd_row(), for the free stream. */
-static void change_factors(const struct free_surface *surface, const struct across *across,
-                           const double *phi, size_t i, size_t j, size_t count,
-                           const double *breadth, double *second, double *odd)
+/* The products of second_row() and odd_row() */
+enum { OF_XX, OF_XE, OF_EE, OF_E, OF_X, ODD_X, ODD_E, PRODUCTS };
+
+/* What changes of the lines and of the base flow (w, then second derivatives) change in their
+ * factors. */
+static void change_factors(double dx, const struct lines *at, const struct lines *d,
+                           const struct base_point *base, const double b[5],
+                           double factor[PRODUCTS])
 {
-    const double(*d)[ALONG] = i + 1 < surface->nx ? spline_along : spline_last, dx = surface->dx;
-    const double *const b[5] = {across->first, across->second, across->first, across->value_sixth,
-                                across->first_sixth};
-    const double *const a[5] = {d[1], d[0], d[0], d[1], d[0]};
+    const double w[2] = {base->gradient[0] - 1.0, base->gradient[1]}, *h = base->second;
+    double ey = 1.0 / at->ye, exy = at->exe * ey, eyy = -at->yee * ey * ey * ey;
+    double c = w[0] * at->ex + w[1] * ey, spread = h[0] + h[2];
+    double gx = 2.0 * (w[0] * h[0] + w[1] * h[1]) + spread * w[0];
+    double gy = 2.0 * (w[0] * h[1] + w[1] * h[2]) + spread * w[1];
+    double dey = -ey * ey * d->ye, dexy = d->exe * ey + at->exe * dey;
+    double deyy = -ey * ey * (d->yee * ey + 3.0 * at->yee * dey);
+    double dc = b[0] * at->ex + w[0] * d->ex + b[1] * ey + w[1] * dey, dspread = b[2] + b[4];
+    double dgx = 2.0 * (b[0] * h[0] + w[0] * b[2] + b[1] * h[1] + w[1] * b[3]) + dspread * w[0] +
+                 spread * b[0];
+    double dgy = 2.0 * (b[0] * h[1] + w[0] * b[3] + b[1] * h[2] + w[1] * b[4]) + dspread * w[1] +
+                 spread * b[1];
+    double dbend = 2.0 * w[0] * b[0] * at->exx + w[0] * w[0] * d->exx +
+                   2.0 * ((b[0] * w[1] + w[0] * b[1]) * exy + w[0] * w[1] * dexy) +
+                   2.0 * w[1] * b[1] * eyy + w[1] * w[1] * deyy;
+    double twice = 1.0 / (64.0 * sqrt(PI * at->ye)), fall = -0.5 * twice * d->ye * ey;
+    factor[OF_XX] = 2.0 * w[0] * b[0] / (dx * dx);
+    factor[OF_XE] = -2.0 * (b[0] * c + w[0] * dc) / dx;
+    factor[OF_EE] = 2.0 * c * dc;
+    factor[OF_E] = dbend + dgx * at->ex + gx * d->ex + dgy * ey + gy * dey;
+    factor[OF_X] = -dgx / dx;
+    factor[ODD_X] = -(b[0] * twice + w[0] * fall) / dx;
+    factor[ODD_E] = fall * c + twice * dc;
+}
+
+static void change_cell(const struct operator_change *change, const struct across *across, size_t i,
+                        size_t j, double *second, double *odd)
+{
+    static const double still[5] = {0.0, 0.0, 0.0, 0.0, 0.0};
+    const struct free_surface *surface = change->surface;
+    const double(*d)[ALONG] = i + 1 < surface->nx ? spline_along : spline_last;
+    const double *const b[PRODUCTS] = {across->value,      across->first, across->second,
+                                       across->first,      across->value, across->value_sixth,
+                                       across->first_sixth};
+    const int along[PRODUCTS] = {2, 1, 0, 0, 1, 1, 0};
     const struct slopes y = cell_slopes(surface, i, j, 1);
     const struct lines at = lines_of(&y);
-    double sum[5], twice = 1.0 / (64.0 * sqrt(PI * at.ye));
-    for (int k = 0; k < 5; k++) {
-        struct target target = {.surface = surface, .phi = phi};
-        add_product(&target, i, j, a[k], b[k], 1.0);
+    size_t count = change->count, cell = i * surface->ny + j;
+    double sum[PRODUCTS];
+    for (int k = 0; k < PRODUCTS; k++) {
+        struct target target = {.surface = surface, .phi = change->phi};
+        add_product(&target, i, j, d[along[k]], b[k], 1.0);
         sum[k] = target.sum;
     }
     for (size_t f = 0; f < count; f++) {
-        const double at_half[3] = {breadth[2 * i * count + f], breadth[(2 * i + 1) * count + f],
-                                   breadth[(2 * i + 2) * count + f]};
-        const struct lines e = change_lines(surface, j, 1, &y, at_half);
-        double fall = -0.5 * twice * e.ye / at.ye;
-        second[f] += -2.0 * e.ex / dx * sum[0] + 2.0 * at.ex * e.ex * sum[1] + e.exx * sum[2];
-        odd[f] += fall / dx * sum[3] - (fall * at.ex + twice * e.ex) * sum[4];
+        double breadth[3], base[5], factor[PRODUCTS];
+        for (size_t s = 0; s < 3; s++)
+            breadth[s] = change->breadth[(2 * i + s) * count + f];
+        for (size_t s = 0; s < 5 && change->base; s++)
+            base[s] = change->base_change[(5 * cell + s) * count + f];
+        const struct lines e = change_lines(surface, j, 1, &y, breadth);
+        change_factors(surface->dx, &at, &e, change->base ? &change->base[cell] : &stream,
+                       change->base ? base : still, factor);
+        for (int k = 0; k < ODD_X; k++)
+            second[f] += factor[k] * sum[k];
+        odd[f] += factor[ODD_X] * sum[ODD_X] + factor[ODD_E] * sum[ODD_E];
     }
 }
 
@@ -467,9 +508,11 @@ static bool sees(size_t i, size_t line)
     return i + 2 >= line && i <= line + 1;
 }
 
-igabem_status operator_change(const struct free_surface *surface, const double *phi, size_t count,
-                              const double *breadth, double *value, double *second, double *odd)
+igabem_status operator_change(const struct operator_change *in, double *value, double *second,
+                              double *odd)
 {
+    const struct free_surface *surface = in->surface;
+    size_t count = in->count;
     size_t nx = surface->nx, ny = surface->ny, rows = surface->waterline.n ? 2 * ny : 0;
     const size_t line[2] = {surface->bow, surface->stern};
     struct across across;
@@ -480,22 +523,22 @@ igabem_status operator_change(const struct free_surface *surface, const double *
     bool complete = jumps && turn && change;
     for (size_t r = 0; r < rows && complete; r++) {
         turn[r].change = change + 3 * count * r;
-        fill_turn(surface, phi, line[r / ny], r % ny, count, breadth, &turn[r]);
+        fill_turn(surface, in->phi, line[r / ny], r % ny, count, in->breadth, &turn[r]);
     }
     for (size_t c = 0; c < nx * ny && complete; c++) {
         size_t i = c / ny, j = c % ny;
         double *v = value + c * count, *s = second + c * count, *o = odd + c * count;
         for (size_t f = 0; f < count; f++)
             v[f] = s[f] = o[f] = 0.0;
-        change_factors(surface, &across, phi, i, j, count, breadth, s, o);
+        change_cell(in, &across, i, j, s, o);
         if (rows == 0 || !(sees(i, line[0]) || sees(i, line[1])))
             continue;
         struct target target = {.surface = surface, .jumps = jumps};
         add_product(&target, i, j, spline_along[0], across.value, 1.0);
         add_turns(rows, count, turn, jumps, v);
-        second_row(&target, &across, &stream, i, j);
+        second_row(&target, &across, in->base ? &in->base[c] : &stream, i, j);
         add_turns(rows, count, turn, jumps, s);
-        odd_row(&target, &across, &stream, i, j);
+        odd_row(&target, &across, in->base ? &in->base[c] : &stream, i, j);
         add_turns(rows, count, turn, jumps, o);
     }
     free(jumps);

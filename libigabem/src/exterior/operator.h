@@ -43,15 +43,24 @@ void operator_gradient(const struct free_surface *surface, const struct free_sur
 
 void operator_free(struct surface_operator *operator_);
 
-/* Value, second and odd of phi, which is the unknowns and after them the hull's edge, about the
- * free stream: fills three arrays [cells]. */
-void operator_apply(const struct free_surface *surface, const double *phi, double *value,
-                    double *second, double *odd);
+/* Value, second and odd of phi, which is the unknowns and after them the hull's edge: fills three
+ * arrays [cells]. base: NULL for the free stream. */
+void operator_apply(const struct free_surface *surface, const struct base_point *base,
+                    const double *phi, double *value, double *second, double *odd);
 
-/* What `count` changes breadth[2 nx + 1][count] of the inner edge, at every half cell, change in
- * them while phi stays: fills three arrays [cells][count]. */
-igabem_status operator_change(const struct free_surface *surface, const double *phi, size_t count,
-                              const double *breadth, double *value, double *second, double *odd);
+/* Changes of the lines and of the base flow, `count` of them, while phi stays. */
+struct operator_change {
+    const struct free_surface *surface;
+    const double *phi;
+    size_t count;
+    const double *breadth;         /* [2 nx + 1][count] of the inner edge, at every half cell */
+    const struct base_point *base; /* NULL: the free stream */
+    const double *base_change;     /* [cells][5][count] */
+};
+
+/* What they change in those three: fills [cells][count]. */
+igabem_status operator_change(const struct operator_change *change, double *value, double *second,
+                              double *odd);
 
 /* The spline's coefficients from its values at the middles of the cells, which lie as below, in
  * place. */

@@ -61,7 +61,8 @@ static const igabem_formulation_row table[] = {
                                          .solves = true,
                                          .pressure = true,
                                          .potential = true,
-                                         .double_model = true},
+                                         .double_model = true,
+                                         .tangents = true},
 };
 enum { ROWS = sizeof table / sizeof *table };
 

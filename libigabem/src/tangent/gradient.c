@@ -271,7 +271,7 @@ static igabem_status from_points(const struct gradient *gradient, const igabem_h
     if (status == IGABEM_OK)
         status = tangent.area ? tangent_area(&tangent) : no_memory();
     if (status == IGABEM_OK)
-        status = shape_change(&tangent, tangent.shape, &change, &outside);
+        status = shape_change(&tangent, tangent.shape, NULL, &change, &outside);
     for (size_t f = 0; f < n && status == IGABEM_OK; f++) {
         const struct field *field = tangent.field;
         double sum = -gradient->cw * tangent.area[f] / area;
@@ -355,7 +355,7 @@ igabem_status igabem_cw_gradient(const igabem_hull *hull, const igabem_solution 
     if (!hull || !solution || !dcw)
         return igabem_fail(IGABEM_ERROR_ARGUMENT, "NULL argument of igabem_cw_gradient");
     igabem_status status = tangent_check(solution);
-    if (status == IGABEM_OK && !solution->potential)
+    if (status == IGABEM_OK && (!solution->potential || solution->base))
         status = igabem_fail(IGABEM_ERROR_ARGUMENT,
                              "formulation %s has no gradient but tangents along fields, expected "
                              "exterior",

@@ -1,43 +1,18 @@
 #include "tangent/potential.h"
 
-#include "core/vector_math.h"
+#include "exterior/base_flow.h"
+#include "exterior/operator.h"
 #include "solve/linear.h"
 #include "solve/potential.h"
+#include "tangent/base_change.h"
+#include "tangent/contract.h"
 #include "tangent/potential_wave.h"
 #include "tangent/row.h"
 #include "threads.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { ROWS_AT_ONCE = 4 };
-
-/* Sums of one block of fields for several rows of factors, `step` apart. */
-VECTOR_MULTIVERSION
-static void contract_block(size_t n, const double *factor, size_t step, const double *matrix,
-                           size_t width, double sum[ROWS_AT_ONCE][FIELD_BLOCK])
-{
-    double s[ROWS_AT_ONCE][FIELD_BLOCK] = {{0}};
-    for (size_t k = 0; k < n; k++, matrix += width)
-        for (size_t r = 0; r < ROWS_AT_ONCE; r++)
-            for (size_t l = 0; l < FIELD_BLOCK; l++)
-                s[r][l] += factor[r * step + k] * matrix[l];
-    memcpy(sum, s, sizeof s);
-}
-
-/* Adds to out[ROWS_AT_ONCE][fields] the sums of factor[n], rows of it `step` apart, over rows of
- * matrix[n][width]. */
-static void contract(size_t n, const double *factor, size_t step, const double *matrix,
-                     size_t width, size_t fields, double *out)
-{
-    for (size_t first = 0; first < fields; first += FIELD_BLOCK) {
-        double sum[ROWS_AT_ONCE][FIELD_BLOCK];
-        contract_block(n, factor, step, matrix + first, width, sum);
-        for (size_t r = 0; r < ROWS_AT_ONCE; r++)
-            for (size_t l = 0; l < FIELD_BLOCK && first + l < fields; l++)
-                out[r * fields + first + l] += sum[r][l];
-    }
-}
 
 /* (b - A q)' of all rows but for what the operators on the surface add: fills
  * right[fields][unknowns]. */
@@ -49,18 +24,18 @@ static igabem_status right_sides(const igabem_tangent *tangent, const struct row
     igabem_status result = IGABEM_OK;
 #pragma omp parallel num_threads(threads)
     {
-        double *row = calloc(ROWS_AT_ONCE * width, sizeof *row);
-        double *sum = malloc(ROWS_AT_ONCE * field->n * sizeof *sum);
+        double *row = calloc(CONTRACT_ROWS * width, sizeof *row);
+        double *sum = malloc(CONTRACT_ROWS * field->n * sizeof *sum);
         struct row_work *work = row_work_create(rows);
         igabem_status status = row && sum && work ? IGABEM_OK : IGABEM_ERROR_MEMORY;
 #pragma omp for schedule(dynamic, 1)
-        for (size_t i = 0; i < n; i += ROWS_AT_ONCE) {
-            size_t count = n - i < ROWS_AT_ONCE ? n - i : ROWS_AT_ONCE;
+        for (size_t i = 0; i < n; i += CONTRACT_ROWS) {
+            size_t count = n - i < CONTRACT_ROWS ? n - i : CONTRACT_ROWS;
             for (size_t r = 0; r < count && status == IGABEM_OK; r++)
                 status = rows_fill(rows, i + r, work, row + r * width);
             if (status != IGABEM_OK)
                 continue;
-            memset(sum, 0, ROWS_AT_ONCE * field->n * sizeof *sum);
+            memset(sum, 0, CONTRACT_ROWS * field->n * sizeof *sum);
             contract(field->controls, row, width, field->net, field->width, field->n, sum);
             contract(tangent->shape->size, row + field->controls, width, tangent->change,
                      field->width, field->n, sum);
@@ -88,12 +63,12 @@ static double *widen(size_t n, const struct field *field, const double *from)
 }
 
 static igabem_status moved_sides(igabem_tangent *tangent, const struct influence *influence,
-                                 size_t n, double *right)
+                                 size_t n, const double *base, double *right)
 {
     size_t fields = tangent->field->n, hull = tangent->solution->density->n;
     double *change = NULL, *outside = NULL;
     struct rows *rows = NULL;
-    igabem_status status = shape_change(tangent, tangent->shape, &change, &outside);
+    igabem_status status = shape_change(tangent, tangent->shape, base, &change, &outside);
     if (status == IGABEM_OK)
         status = rows_create(tangent, tangent->shape, influence, &rows);
     if (status == IGABEM_OK) {
@@ -173,15 +148,45 @@ static igabem_status velocities(igabem_tangent *tangent)
     return status;
 }
 
+/* What the cells of a double model radiate, given the changes of all unknowns, [fields][n]. */
+static igabem_status radiation(igabem_tangent *tangent, size_t n, const double *unknowns,
+                               const double *base)
+{
+    const igabem_solution *solution = tangent->solution;
+    const struct free_surface *surface = solution->surface;
+    size_t fields = tangent->field->n, hull = solution->density->n;
+    size_t cells = surface->nx * surface->ny;
+    struct sparse edge;
+    igabem_status status = operator_edge(surface, solution->density, tangent->mesh, &edge);
+    if (status != IGABEM_OK)
+        return status;
+    double *phi = calloc((cells + edge.rows) * fields + 1, sizeof *phi);
+    for (size_t f = 0; f < fields && phi; f++) {
+        const double *own = unknowns + f * n;
+        for (size_t c = 0; c < cells; c++)
+            phi[c * fields + f] = own[hull + c];
+        for (size_t k = 0; k < edge.rows; k++)
+            for (size_t l = edge.start[k]; l < edge.start[k + 1]; l++)
+                phi[(cells + k) * fields + f] += edge.value[l] * own[edge.column[l]];
+    }
+    status = phi ? shape_cells(tangent, phi, base, &tangent->cells) : tangent_no_memory(fields);
+    free(phi);
+    sparse_free(&edge);
+    return status;
+}
+
 static igabem_status solve(igabem_tangent *tangent, const struct influence *influence)
 {
     const igabem_solution *solution = tangent->solution;
     size_t n = potential_unknowns(solution), hull = solution->density->n;
     size_t fields = tangent->field->n;
-    double *factors = NULL, *right = malloc(n * fields * sizeof *right);
+    double *factors = NULL, *base = NULL, *right = malloc(n * fields * sizeof *right);
     int *pivots = NULL;
-    igabem_status status =
-        right ? moved_sides(tangent, influence, n, right) : tangent_no_memory(fields);
+    igabem_status status = right ? IGABEM_OK : tangent_no_memory(fields);
+    if (status == IGABEM_OK && solution->base)
+        status = base_change(tangent, tangent->shape, influence, &base);
+    if (status == IGABEM_OK)
+        status = moved_sides(tangent, influence, n, base, right);
     if (status == IGABEM_OK && !solution->system)
         status = potential_factors(influence, solution, &factors, &pivots);
     if (status == IGABEM_OK) {
@@ -191,8 +196,11 @@ static igabem_status solve(igabem_tangent *tangent, const struct influence *infl
     }
     for (size_t f = 0; f < fields && status == IGABEM_OK; f++)
         memcpy(tangent->sigma + f * hull, right + f * n, hull * sizeof *right);
+    if (status == IGABEM_OK && solution->base)
+        status = radiation(tangent, n, right, base);
     free(factors);
     free(pivots);
+    free(base);
     free(right);
     return status;
 }
@@ -238,33 +246,66 @@ static igabem_status gather_changes(const igabem_tangent *tangent, size_t number
     return IGABEM_OK;
 }
 
+/* What the cells of a double model radiate, F = (q - m.grad) E of each part on z = 0: adds to h[2],
+ * fills row[2][SHAPE_CELL parts]. */
+static void cells_row(const igabem_solution *solution, double t, double h[2], double *row)
+{
+    size_t parts = BASE_FLOW_SIDE * BASE_FLOW_SIDE * solution->surface->nx * solution->surface->ny;
+    double k = solution->k0 * sqrt(1.0 + t * t), b = k * t;
+    for (size_t p = 0; p < parts; p++) {
+        const double *part = solution->cell_source[p];
+        double e = 2.0 * cos(b * part[1]), o = 2.0 * sin(b * part[1]);
+        const double wave[2] = {cos(k * part[0]), sin(k * part[0])};
+        double q = part[3], mx = part[4], my = part[5];
+        for (size_t r = 0; r < 2; r++) {
+            double c = wave[r], s = r ? -wave[0] : wave[1];
+            double *to = row + SHAPE_CELL * (r * parts + p);
+            h[r] += (q * e + b * my * o) * c + k * mx * e * s;
+            to[0] = (b * b * my * e - b * q * o) * c - k * b * mx * o * s;
+            to[1] = e * c;
+            to[2] = k * e * s;
+            to[3] = b * o * c;
+        }
+    }
+}
+
 igabem_status potential_kochin(const igabem_tangent *tangent, double largest, size_t m,
                                const double *t, double (*h)[2], double (*dh)[2])
 {
     const struct field *field = tangent->field;
+    const igabem_solution *solution = tangent->solution;
+    size_t cells = 0;
     struct waves *waves;
     double *change = NULL;
     igabem_status status = waves_create(tangent, largest, &waves);
     if (status != IGABEM_OK)
         return status;
+    if (tangent->cells)
+        cells = SHAPE_CELL * BASE_FLOW_SIDE * BASE_FLOW_SIDE * solution->surface->nx *
+                solution->surface->ny;
     size_t numbers = waves_width(waves);
     status = gather_changes(tangent, numbers, &change);
     bool failed = status != IGABEM_OK;
 #pragma omp parallel reduction(| : failed)
     {
-        double *row = malloc(ROWS_AT_ONCE * numbers * sizeof *row);
-        double *sum = malloc(ROWS_AT_ONCE * field->n * sizeof *sum);
+        double *row = calloc(CONTRACT_ROWS * numbers, sizeof *row);
+        double *sum = malloc(CONTRACT_ROWS * field->n * sizeof *sum);
+        double *cell = calloc(CONTRACT_ROWS * cells + 1, sizeof *cell);
         struct waves_work *work = waves_work_create(waves);
-        failed |= !row || !sum || !work;
+        failed |= !row || !sum || !cell || !work;
 #pragma omp for schedule(dynamic, 1)
         for (size_t i = 0; i < m; i += 2) {
             if (failed)
                 continue;
-            for (size_t k = 0; k < 2; k++) /* of an odd number the last one twice */
-                waves_row(waves, t[i + k < m ? i + k : i], work, h[i + k < m ? i + k : i],
-                          row + 2 * k * numbers);
-            memset(sum, 0, ROWS_AT_ONCE * field->n * sizeof *sum);
+            memset(sum, 0, CONTRACT_ROWS * field->n * sizeof *sum);
+            for (size_t k = 0; k < 2 && i + k < m; k++) {
+                waves_row(waves, t[i + k], work, h[i + k], row + 2 * k * numbers);
+                if (cells)
+                    cells_row(solution, t[i + k], h[i + k], cell + 2 * k * cells);
+            }
             contract(numbers, row, numbers, change, field->width, field->n, sum);
+            if (cells)
+                contract(cells, cell, cells, tangent->cells, field->width, field->n, sum);
             for (size_t f = 0; f < field->n; f++)
                 for (size_t k = 0; k < 4 && i + k / 2 < m; k++)
                     dh[f * m + i + k / 2][k % 2] = sum[k * field->n + f];
@@ -272,6 +313,7 @@ igabem_status potential_kochin(const igabem_tangent *tangent, double largest, si
         waves_work_free(work);
         free(row);
         free(sum);
+        free(cell);
     }
     free(change);
     waves_free(waves);

@@ -24,6 +24,7 @@ enum count { PLACE, HX, HZ, VALUE, COUNTS };
 struct line_node {
     const struct element *element;
     double local[2], x, y, flux, stretch, phi, v;
+    double flow; /* 1, of a double model 0: phi_x has left its waterline */
     int run;
 };
 
@@ -136,7 +137,8 @@ static void fill_line_node(const igabem_tangent *tangent, const struct line_segm
     to->flux = normal[0] * normal[1] / tangent->solution->k0;
     to->stretch = dl > 0 ? outward * normal[1] / (dl * tangent->solution->k0) : 0.0;
     to->phi = nodes_value(nodes, element, i, phi, 1) / weight;
-    to->v = nodes_value(nodes, element, i, velocity, 1) / weight;
+    to->flow = tangent->solution->base ? 0.0 : 1.0;
+    to->v = to->flow * nodes_value(nodes, element, i, velocity, 1) / weight;
 }
 
 static igabem_status fill_line(const igabem_tangent *tangent, const struct wave_rule *rule,
@@ -396,7 +398,7 @@ static void add_line(const struct waves *waves, const struct angle *angle, doubl
             h[part] += node->flux * strength * e;
             for (size_t k = 0; k < count; k++) {
                 moment[k] = -node->flux * angle->k * s * e * phi[k];
-                moment[count + k] = -node->flux * c * e * phi[k];
+                moment[count + k] = -node->flow * node->flux * c * e * phi[k];
                 net[k] +=
                     strength * (node->stretch * e * slope[k] - node->flux * angle->b * o * move[k]);
             }

@@ -1,5 +1,6 @@
 #include "tangent/row.h"
 
+#include "exterior/base_flow.h"
 #include "exterior/layers.h"
 #include "exterior/operator.h"
 #include "tangent/row_layer.h"
@@ -51,10 +52,12 @@ static igabem_status surface_strength(const igabem_tangent *tangent, double **st
     if (*strength && value) {
         double damping = solution->options.surface_damping / sqrt(solution->k0);
         double *second = value + cells, *odd = second + cells;
-        operator_apply(surface, solution->surface_phi, value, second, odd);
-        for (size_t c = 0; c < cells; c++)
+        operator_apply(surface, solution->base, solution->surface_phi, value, second, odd);
+        for (size_t c = 0; c < cells; c++) {
+            double known = solution->base ? base_flow_known(&solution->base[c]) : 0.0;
             (*strength)[(c / ny + 1) * surface->columns + c % ny + 1] =
-                second[c] / solution->k0 + damping * odd[c];
+                (second[c] - solution->speed * known) / solution->k0 + damping * odd[c];
+        }
         operator_interpolate(surface, *strength, *strength + surface->coefficients);
     }
     bool complete = *strength && value;
@@ -130,8 +133,8 @@ igabem_status rows_create(const igabem_tangent *tangent, const struct shape *sha
             status = strength_of[p](tangent, &strength);
         if (status == IGABEM_OK)
             status = row_layer_create(tangent, shape, kind[p],
-                                      p == PART_HULL ? hull : rows->influence[p], strength,
-                                      &rows->layer[p]);
+                                      p == PART_HULL ? hull : rows->influence[p],
+                                      tangent->solution->speed, strength, &rows->layer[p]);
         else
             free(strength);
     }

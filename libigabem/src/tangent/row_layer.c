@@ -9,17 +9,13 @@
 
 enum { SIDE = 4 };
 
-/* Columns of nodes that carry phi: the area vector A, c and phi times the area over |A| (of unit
- * parameters), c.A and phi. */
-enum general_column { AX, AY, AZ, CX, CY, CZ, Q, PHI, PHI_PART, GENERAL };
 /* Of those of the free surface: their strength q, q V and q V_t/y_t for a unit move of the inner
  * edge, and the cubics along x through the four places of the edge that move them. */
 enum flat_column { STRENGTH, MOVED, STRETCHED, CUBIC, FLAT = CUBIC + SIDE };
-enum { ROW_COLUMNS = GENERAL }; /* the larger number */
+enum { ROW_COLUMNS = ROW_GENERAL_COLUMNS }; /* the larger number */
 
-/* What kernels leave at a node: G, A.dG, and what its move and h count for (tangent/fold.h). */
-enum general_kernel { G, D, PLACE, H = PLACE + 3, GENERAL_KERNELS = H + 3 };
-/* And on the free surface G and its derivative along y at the node, without strength. */
+/* What kernels leave at a node of the free surface: G and its derivative along y at the node,
+ * without strength. */
 enum flat_kernel { FLAT_G, FLAT_Y, FLAT_KERNELS };
 
 static bool is_flat(const struct row_layer *layer)
@@ -27,29 +23,20 @@ static bool is_flat(const struct row_layer *layer)
     return layer->kind == ROW_SURFACE || layer->kind == ROW_STRIP;
 }
 
-/* Nodes first to end, from block on, and their columns, [columns][n]: the rules of a panel lie
- * together. */
-struct stretch {
-    const struct nodes *nodes;
-    const struct hull_nodes *hull;
-    size_t first, end, n, block;
-    double *column;
-};
-
-static struct stretch stretch_of(const struct row_nodes *row, size_t first, size_t end,
-                                 size_t block)
+static struct row_stretch stretch_of(const struct row_nodes *row, size_t first, size_t end,
+                                     size_t block)
 {
-    return (struct stretch){
+    return (struct row_stretch){
         row->nodes, &row->hull, first, end, end - first, block, row->column + ROW_COLUMNS * first};
 }
 
-static double *column_of(const struct stretch *stretch, size_t c)
+static double *column_of(const struct row_stretch *stretch, size_t c)
 {
     return stretch->column + c * stretch->n;
 }
 
 /* Blocks go on from stretch to stretch: the part of block b; false: it lies behind. */
-static bool part_of(const struct stretch *stretch, size_t b, struct block *block)
+static bool part_of(const struct row_stretch *stretch, size_t b, struct block *block)
 {
     if (b >= stretch->nodes->blocks || stretch->nodes->block[b].begin >= stretch->end)
         return false;
@@ -128,7 +115,7 @@ void row_layer_place(const struct row_layer *layer, size_t cell, const double lo
 }
 
 static void fill_flat(const struct row_layer *layer, const struct block *block,
-                      const struct stretch *stretch)
+                      const struct row_stretch *stretch)
 {
     const struct nodes *nodes = stretch->nodes;
     const struct element *element = block->element;
@@ -151,7 +138,7 @@ static void fill_flat(const struct row_layer *layer, const struct block *block,
 }
 
 static void fill_general(const struct row_layer *layer, const struct block *block,
-                         const struct stretch *stretch)
+                         const struct row_stretch *stretch)
 {
     const struct nodes *nodes = stretch->nodes;
     const struct element *element = block->element;
@@ -161,7 +148,7 @@ static void fill_general(const struct row_layer *layer, const struct block *bloc
     element_gather(element, layer->strength, field);
     if (layer->kind == ROW_FACE) {
         size_t j = (size_t)(element - transom->face->element) / TRANSOM_FACE_PARTS;
-        flux = solution->speed * solution->k0 * transom->turn[j] * transom->depth[j];
+        flux = layer->speed * solution->k0 * transom->turn[j] * transom->depth[j];
     }
     for (size_t i = block->begin; i < block->end; i++) {
         struct area_change area;
@@ -171,16 +158,16 @@ static void fill_general(const struct row_layer *layer, const struct block *bloc
         double part = area.size > 0 ? nodes->g[i] * weight / area.size : 0.0;
         double phi = nodes_value(nodes, element, i, field, 1) / weight, carried = 0.0;
         for (size_t c = 0; c < 3; c++) {
-            double of_area = c == 0 ? solution->speed : 0.0;
+            double of_area = c == 0 ? layer->speed : 0.0;
             if (layer->kind == ROW_FACE)
                 of_area = area.size > 0 ? flux * area.area[c] / area.size : 0.0;
-            column_of(stretch, AX + c)[to] = part * area.area[c];
-            column_of(stretch, CX + c)[to] = part * of_area;
+            column_of(stretch, ROW_AX + c)[to] = part * area.area[c];
+            column_of(stretch, ROW_CX + c)[to] = part * of_area;
             carried += part * of_area * area.area[c];
         }
-        column_of(stretch, Q)[to] = carried;
-        column_of(stretch, PHI)[to] = phi;
-        column_of(stretch, PHI_PART)[to] = part * phi;
+        column_of(stretch, ROW_Q)[to] = carried;
+        column_of(stretch, ROW_PHI)[to] = phi;
+        column_of(stretch, ROW_PHI_PART)[to] = part * phi;
     }
 }
 
@@ -201,7 +188,7 @@ static bool reserve(const struct row_layer *layer, struct nodes *nodes, struct r
     return layer->kind != ROW_HULL || hull_nodes_fill(nodes, &row->hull);
 }
 
-static void fill_stretch(const struct row_layer *layer, const struct stretch *stretch)
+static void fill_stretch(const struct row_layer *layer, const struct row_stretch *stretch)
 {
     struct block block;
     for (size_t b = stretch->block; part_of(stretch, b, &block); b++)
@@ -211,7 +198,7 @@ static void fill_stretch(const struct row_layer *layer, const struct stretch *st
             fill_general(layer, &block, stretch);
 }
 
-static void free_nodes(struct row_nodes *row)
+void row_nodes_free(struct row_nodes *row)
 {
     hull_nodes_free(&row->hull);
     free(row->column);
@@ -219,7 +206,7 @@ static void free_nodes(struct row_nodes *row)
     row->capacity = 0;
 }
 
-static struct stretch rule_stretch(const struct row_layer *layer, size_t r)
+struct row_stretch row_layer_rule(const struct row_layer *layer, size_t r)
 {
     return stretch_of(&layer->far, layer->node[r], layer->node[r + 1], layer->block[r]);
 }
@@ -246,7 +233,7 @@ static bool fill_far(struct row_layer *layer)
         while (b + 1 < nodes->blocks && nodes->block[b].end <= layer->node[r])
             b++;
         layer->block[r] = b;
-        const struct stretch stretch = rule_stretch(layer, r);
+        const struct row_stretch stretch = row_layer_rule(layer, r);
         fill_stretch(layer, &stretch);
     }
     return true;
@@ -254,11 +241,12 @@ static bool fill_far(struct row_layer *layer)
 
 igabem_status row_layer_create(const igabem_tangent *tangent, const struct shape *shape,
                                enum row_layer_kind kind, const struct influence *influence,
-                               double *strength, struct row_layer *layer)
+                               double speed, double *strength, struct row_layer *layer)
 {
     *layer = (struct row_layer){.kind = kind,
                                 .tangent = tangent,
                                 .shape = shape,
+                                .speed = speed,
                                 .strength = strength,
                                 .surface = {.influence = influence, .symmetric = true}};
     layer->surface.flat = is_flat(layer);
@@ -270,7 +258,7 @@ igabem_status row_layer_create(const igabem_tangent *tangent, const struct shape
 void row_layer_free(struct row_layer *layer)
 {
     nodes_free(&layer->nodes);
-    free_nodes(&layer->far);
+    row_nodes_free(&layer->far);
     free(layer->node);
     free(layer->block);
     free(layer->strength);
@@ -287,17 +275,17 @@ bool row_layer_work_create(const struct row_layer *layer, struct row_layer_work 
 void row_layer_work_free(struct row_layer_work *work)
 {
     layer_work_free(&work->layer);
-    free_nodes(&work->near);
+    row_nodes_free(&work->near);
     free(work->kernel);
 }
 
 static bool clear_kernels(const struct row_layer *layer, struct row_layer_work *work, size_t n)
 {
-    size_t kernels = is_flat(layer) ? (size_t)FLAT_KERNELS : (size_t)GENERAL_KERNELS;
+    size_t kernels = is_flat(layer) ? (size_t)FLAT_KERNELS : (size_t)ROW_KERNELS;
     if (n > work->capacity) {
         free(work->kernel);
         work->capacity = n + n / 2;
-        work->kernel = malloc(GENERAL_KERNELS * work->capacity * sizeof *work->kernel);
+        work->kernel = malloc(ROW_KERNELS * work->capacity * sizeof *work->kernel);
     }
     if (!work->kernel) {
         work->capacity = 0;
@@ -313,9 +301,10 @@ VECTOR_MULTIVERSION
 static double general_kernels(const double p[3], size_t n, const double *x, const double *y,
                               const double *z, const double *column, double *restrict out)
 {
-    const double *ax = column + AX * n, *ay = column + AY * n, *az = column + AZ * n;
-    const double *cx = column + CX * n, *cy = column + CY * n, *cz = column + CZ * n;
-    const double *q = column + Q * n, *phi = column + PHI * n, *part = column + PHI_PART * n;
+    const double *ax = column + ROW_AX * n, *ay = column + ROW_AY * n, *az = column + ROW_AZ * n;
+    const double *cx = column + ROW_CX * n, *cy = column + ROW_CY * n, *cz = column + ROW_CZ * n;
+    const double *q = column + ROW_Q * n, *phi = column + ROW_PHI * n,
+                 *part = column + ROW_PHI_PART * n;
     double turn = 0.0, scale = -1.0 / (4.0 * PI);
 #pragma omp simd reduction(+ : turn)
     for (size_t i = 0; i < n; i++) {
@@ -356,7 +345,7 @@ static double flat_kernels(const double p[3], size_t n, const double *x, const d
 }
 
 /* Nodes as seen from p, y turned round or not. */
-static void add_kernels(const struct row_layer *layer, const struct stretch *stretch,
+static void add_kernels(const struct row_layer *layer, const struct row_stretch *stretch,
                         const double p[3], bool turned, double *out, double *turn)
 {
     const struct nodes *nodes = stretch->nodes;
@@ -390,7 +379,7 @@ static void flat_sums(size_t n, size_t step, const double *column, const double 
     sum[3] = s3;
 }
 
-static void fold_transom(const struct row_layer *layer, const struct stretch *stretch,
+static void fold_transom(const struct row_layer *layer, const struct row_stretch *stretch,
                          const struct block *block, const double *kernel, double *numbers)
 {
     const struct shape *shape = layer->shape;
@@ -400,22 +389,22 @@ static void fold_transom(const struct row_layer *layer, const struct stretch *st
         double local[2], place[3], h[3], square = 0.0;
         size_t at = i - stretch->first;
         for (size_t c = 0; c < 3; c++) {
-            double area = column_of(stretch, AX + c)[at];
-            place[c] = kernel[(PLACE + c) * n + at];
-            h[c] = kernel[(H + c) * n + at];
+            double area = column_of(stretch, ROW_AX + c)[at];
+            place[c] = kernel[(ROW_PLACE + c) * n + at];
+            h[c] = kernel[(ROW_TURN + c) * n + at];
             square += area * area;
         }
         nodes_local(stretch->nodes, element, i, local);
         fold_face(shape, part, local, stretch->nodes->jet + 6 * i, element->sign, place, h,
                   numbers);
-        numbers[shape->rim + part / TRANSOM_FACE_PARTS] -= kernel[D * n + at];
-        numbers[shape->flux + part / TRANSOM_FACE_PARTS] += kernel[G * n + at] * sqrt(square);
+        numbers[shape->rim + part / TRANSOM_FACE_PARTS] -= kernel[ROW_D * n + at];
+        numbers[shape->flux + part / TRANSOM_FACE_PARTS] += kernel[ROW_G * n + at] * sqrt(square);
     }
 }
 
 /* Turns the kernels of nodes into what the numbers count for. */
-static void fold_stretch(const struct row_layer *layer, const struct stretch *stretch,
-                         const double *kernel, double *numbers)
+void row_layer_fold(const struct row_layer *layer, const struct row_stretch *stretch,
+                    const double *kernel, double *numbers)
 {
     const struct field *field = layer->tangent->field;
     size_t n = stretch->n;
@@ -430,8 +419,8 @@ static void fold_stretch(const struct row_layer *layer, const struct stretch *st
         } else if (layer->kind == ROW_FACE) {
             fold_transom(layer, stretch, &block, kernel, numbers);
         } else {
-            fold_hull(stretch->hull, &block, stretch->first, kernel + (PLACE + 1) * n,
-                      kernel + H * n, kernel + (H + 2) * n,
+            fold_hull(stretch->hull, &block, stretch->first, kernel + (ROW_PLACE + 1) * n,
+                      kernel + ROW_TURN * n, kernel + (ROW_TURN + 2) * n,
                       numbers + field->offset[block.element - field->mesh->element]);
         }
     }
@@ -447,17 +436,28 @@ static bool add_far(const struct row_layer *layer, int images, const double imag
         if (!work->layer.far[p])
             continue;
         const struct regular_rule *rule = regular_rule_of(influence, p, work->layer.class[p]);
-        const struct stretch stretch = rule_stretch(layer, (size_t)(rule - influence->regular));
+        const struct row_stretch stretch =
+            row_layer_rule(layer, (size_t)(rule - influence->regular));
         if (!clear_kernels(layer, work, stretch.n))
             return false;
         for (int i = 0; i < images; i++)
             if (work->layer.far[p] >> i & 1)
                 add_kernels(layer, &stretch, image[i], turned[i], work->kernel, turn);
-        fold_stretch(layer, &stretch, work->kernel, numbers);
+        row_layer_fold(layer, &stretch, work->kernel, numbers);
         if (single)
             regular_scatter(&mesh->element[mesh->panel[p].first], rule, 1, work->kernel, rule->n,
                             single, 0);
     }
+    return true;
+}
+
+bool row_layer_own(const struct row_layer *layer, struct nodes *nodes, struct row_nodes *row,
+                   struct row_stretch *stretch)
+{
+    if (!reserve(layer, nodes, row))
+        return false;
+    *stretch = stretch_of(row, 0, nodes->n, 0);
+    fill_stretch(layer, stretch);
     return true;
 }
 
@@ -468,12 +468,12 @@ static bool add_own(const struct row_layer *layer, struct nodes *nodes, const do
 {
     if (!nodes->failed && nodes->n == 0)
         return true;
-    if (!reserve(layer, nodes, &work->near) || !clear_kernels(layer, work, nodes->n))
+    struct row_stretch stretch;
+    if (!row_layer_own(layer, nodes, &work->near, &stretch) ||
+        !clear_kernels(layer, work, nodes->n))
         return false;
-    const struct stretch stretch = stretch_of(&work->near, 0, nodes->n, 0);
-    fill_stretch(layer, &stretch);
     add_kernels(layer, &stretch, p, turned, work->kernel, turn);
-    fold_stretch(layer, &stretch, work->kernel, numbers);
+    row_layer_fold(layer, &stretch, work->kernel, numbers);
     if (single)
         nodes_scatter(nodes, 1, work->kernel, nodes->n, single, 0);
     nodes_clear(nodes);

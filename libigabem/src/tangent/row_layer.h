@@ -21,8 +21,39 @@ struct row_nodes {
     size_t capacity;
 };
 
+void row_nodes_free(struct row_nodes *row);
+
+/* Columns of nodes that carry phi: the area vector A, c and phi times the area over |A| (of unit
+ * parameters), c.A and phi. */
+enum row_column {
+    ROW_AX,
+    ROW_AY,
+    ROW_AZ,
+    ROW_CX,
+    ROW_CY,
+    ROW_CZ,
+    ROW_Q,
+    ROW_PHI,
+    ROW_PHI_PART,
+    ROW_GENERAL_COLUMNS
+};
+
+/* What kernels leave at such a node: G, A.dG, and what its move and h count for (tangent/fold.h).
+ */
+enum row_kernel { ROW_G, ROW_D, ROW_PLACE, ROW_TURN = ROW_PLACE + 3, ROW_KERNELS = ROW_TURN + 3 };
+
+/* Nodes first to end, from block on, and their columns, [columns][n]: the rules of a panel lie
+ * together. */
+struct row_stretch {
+    const struct nodes *nodes;
+    const struct hull_nodes *hull;
+    size_t first, end, n, block;
+    double *column;
+};
+
 struct row_layer {
     enum row_layer_kind kind;
+    double speed; /* of the stream through the layer */
     const igabem_tangent *tangent;
     const struct shape *shape;
     struct layer_surface surface;
@@ -35,8 +66,16 @@ struct row_layer {
 /* strength: taken over, also after an error. */
 igabem_status row_layer_create(const igabem_tangent *tangent, const struct shape *shape,
                                enum row_layer_kind kind, const struct influence *influence,
-                               double *strength, struct row_layer *layer);
+                               double speed, double *strength, struct row_layer *layer);
 void row_layer_free(struct row_layer *layer);
+
+/* The nodes of a far rule; of nodes of one's own, whose columns are filled (false: no memory). */
+struct row_stretch row_layer_rule(const struct row_layer *layer, size_t rule);
+bool row_layer_own(const struct row_layer *layer, struct nodes *nodes, struct row_nodes *row,
+                   struct row_stretch *stretch);
+/* Turns the kernels of nodes, [kernels][n], into what the numbers count for. */
+void row_layer_fold(const struct row_layer *layer, const struct row_stretch *stretch,
+                    const double *kernel, double *numbers);
 
 struct row_layer_work {
     struct layer_work layer;

@@ -1,5 +1,6 @@
 #include "tangent/shape.h"
 
+#include "exterior/base_flow.h"
 #include "exterior/operator.h"
 #include "exterior/spline.h"
 #include "result/radiation.h"
@@ -120,9 +121,11 @@ static void change_at(const struct edge_change *rim, double y, const double *dy,
     }
 }
 
-/* Of phi where edge_locate() looks it up, phi on the hull as it is; v[3][fields]. */
+/* Of phi where edge_locate() looks it up, phi on the hull as it is, [n] coefficients; v[3][fields].
+ */
 static igabem_status change_phi(const igabem_tangent *tangent, const struct edge_change *rim,
-                                double y, const double *dy, double *v, double *phi)
+                                const double *on_hull, double y, const double *dy, double *v,
+                                double *phi)
 {
     double share, uv[2], local[2], slope[2];
     size_t patch, n = rim->n;
@@ -147,7 +150,7 @@ static igabem_status change_phi(const igabem_tangent *tangent, const struct edge
     if (status != IGABEM_OK)
         return status;
     element = mesh_locate(tangent->mesh, patch, uv, local);
-    element_slope(element, tangent->solution->sigma, local, slope);
+    element_slope(element, on_hull, local, slope);
     double rise = 0.0; /* of phi with the share */
     for (int d = 0; d < 2; d++)
         rise += slope[d] * step[d] / (element->upper[d] - element->lower[d]);
@@ -211,8 +214,8 @@ static igabem_status change_columns(const igabem_tangent *tangent, const struct 
         change_turn(shape, j * TRANSOM_FACE_PARTS + TRANSOM_FACE_PARTS / 2, n, change, flux);
         for (size_t f = 0; f < n; f++)
             flux[f] = rate * (flux[f] * transom->depth[j] + transom->turn[j] * at.z[f]);
-        igabem_status status =
-            change_phi(tangent, rim, y, work->dy, work->v, change + (shape->rim + j) * n);
+        igabem_status status = change_phi(tangent, rim, tangent->solution->sigma, y, work->dy,
+                                          work->v, change + (shape->rim + j) * n);
         if (status != IGABEM_OK)
             return status;
     }
@@ -266,35 +269,22 @@ static igabem_status change_points(const igabem_tangent *tangent, const struct s
         change_at(rim, y, work->dy, &to);
         for (size_t f = 0; f < n; f++)
             slope[f] *= at[2] < 0.0 ? rate : 0.0;
-        status = change_phi(tangent, rim, y, work->dy, work->v, phi);
+        status = change_phi(tangent, rim, tangent->solution->sigma, y, work->dy, work->v, phi);
     }
     return status;
 }
 
 static igabem_status change_transom(const igabem_tangent *tangent, const struct shape *shape,
-                                    const struct edge_change *line, double *change, double *row)
+                                    double *change, double *row)
 {
     const struct transom *transom = shape->transom;
-    size_t n = tangent->field->n, parts = shape->parts;
+    size_t n = tangent->field->n;
     struct edge_change rim = {.move = NULL};
     double *space = malloc((7 + transom->n) * n * sizeof *space);
     const struct transom_work work = {space,         space + n,     space + 2 * n,
                                       space + 3 * n, space + 4 * n, space + 7 * n};
     igabem_status status =
         space ? edge_change(tangent, &transom->rim_edge, &rim) : tangent_no_memory(n);
-    double *breadth = change + shape->breadth * n;
-    memcpy(breadth, line->move, n * sizeof *breadth);
-    for (size_t k = 0; k <= parts && status == IGABEM_OK; k++) {
-        double share = (double)k / (double)parts, y = transom->breadth * share, at[3];
-        double *x = change + (shape->corner + k) * n, *z = x + (parts + 1) * n;
-        const struct rim_change to = {x, z, NULL};
-        for (size_t f = 0; f < n; f++)
-            work.dy[f] = share * breadth[f];
-        edge_at(&transom->rim_edge, y, at);
-        change_at(&rim, y, work.dy, &to);
-        if (!(at[2] < 0.0)) /* the face ends at the still water */
-            memset(z, 0, n * sizeof *z);
-    }
     if (status == IGABEM_OK)
         status = change_columns(tangent, shape, &rim, &work, change);
     if (status == IGABEM_OK) {
@@ -308,7 +298,8 @@ static igabem_status change_transom(const igabem_tangent *tangent, const struct 
 
 /* Of the free surface itself. */
 static igabem_status change_surface(const igabem_tangent *tangent, const struct shape *shape,
-                                    const struct edge_change *line, double *change, double *row)
+                                    const struct edge_change *line, const double *base,
+                                    double *change, double *row)
 {
     const igabem_solution *solution = tangent->solution;
     const struct free_surface *surface = shape->surface;
@@ -316,25 +307,97 @@ static igabem_status change_surface(const igabem_tangent *tangent, const struct 
     double *half = malloc((2 * nx + 1) * n * sizeof *half), *odd = malloc(cells * n * sizeof *odd);
     double *wave = change + shape->wave * n;
     igabem_status status = half && odd ? IGABEM_OK : tangent_no_memory(n);
-    for (size_t k = 0; k <= 3 * nx; k++)
-        breadth_change(surface, line, surface->x0 - surface->dx * ((double)k / 3.0),
-                       change + (shape->station + k) * n);
     for (size_t k = 0; k <= 2 * nx && half; k++)
         breadth_change(surface, line, surface->x0 - surface->dx * (0.5 * (double)k), half + k * n);
     if (status == IGABEM_OK)
-        status = operator_change(surface, solution->surface_phi, n, half, row, wave, odd);
+        status = operator_change(&(struct operator_change){surface, solution->surface_phi, n, half,
+                                                           solution->base, base},
+                                 row, wave, odd);
     double damping = solution->options.surface_damping / sqrt(solution->k0);
     for (size_t k = 0; k < cells * n && status == IGABEM_OK; k++) {
+        double d[5];
         wave[k] = wave[k] / solution->k0 + damping * odd[k];
         row[k] = -row[k];
+        for (size_t c = 0; c < 5 && solution->base; c++)
+            d[c] = base[(5 * (k / n) + c) * n + k % n];
+        if (solution->base)
+            wave[k] -=
+                solution->speed / solution->k0 * base_flow_known_change(&solution->base[k / n], d);
     }
     free(half);
     free(odd);
     return status;
 }
 
+static igabem_status change_corners(const igabem_tangent *tangent, const struct shape *shape,
+                                    const struct edge_change *line, double *change)
+{
+    const struct transom *transom = shape->transom;
+    size_t n = tangent->field->n, parts = shape->parts;
+    struct edge_change rim = {.move = NULL};
+    double *dy = malloc(n * sizeof *dy), *breadth = change + shape->breadth * n;
+    igabem_status status =
+        dy ? edge_change(tangent, &transom->rim_edge, &rim) : tangent_no_memory(n);
+    memcpy(breadth, line->move, n * sizeof *breadth);
+    for (size_t k = 0; k <= parts && status == IGABEM_OK; k++) {
+        double share = (double)k / (double)parts, y = transom->breadth * share, at[3];
+        double *x = change + (shape->corner + k) * n, *z = x + (parts + 1) * n;
+        const struct rim_change to = {x, z, NULL};
+        for (size_t f = 0; f < n; f++)
+            dy[f] = share * breadth[f];
+        edge_at(&transom->rim_edge, y, at);
+        change_at(&rim, y, dy, &to);
+        if (!(at[2] < 0.0)) /* the face ends at the still water */
+            memset(z, 0, n * sizeof *z);
+    }
+    free(dy);
+    free(rim.move);
+    return status;
+}
+
+static igabem_status change_lines(const igabem_tangent *tangent, const struct shape *shape,
+                                  const struct edge_change *line, double *change)
+{
+    const struct free_surface *surface = shape->surface;
+    for (size_t k = 0; k <= 3 * surface->nx; k++)
+        breadth_change(surface, line, surface->x0 - surface->dx * ((double)k / 3.0),
+                       change + (shape->station + k) * tangent->field->n);
+    return shape->transom ? change_corners(tangent, shape, line, change) : IGABEM_OK;
+}
+
+igabem_status shape_lines(const igabem_tangent *tangent, const struct shape *shape, double *change)
+{
+    struct edge_change line = {.move = NULL};
+    igabem_status status = edge_change(tangent, &shape->surface->waterline, &line);
+    if (status == IGABEM_OK)
+        status = change_lines(tangent, shape, &line, change);
+    free(line.move);
+    return status;
+}
+
+igabem_status shape_rim_change(const igabem_tangent *tangent, const struct shape *shape,
+                               const double *phi, double *change)
+{
+    const struct transom *transom = shape->transom;
+    size_t n = tangent->field->n;
+    struct edge_change rim = {.move = NULL};
+    double *dy = malloc(4 * n * sizeof *dy);
+    igabem_status status =
+        dy ? edge_change(tangent, &transom->rim_edge, &rim) : tangent_no_memory(n);
+    for (size_t j = 0; j < transom->n && status == IGABEM_OK; j++) {
+        double share = ((double)j + 0.5) / (double)transom->n;
+        for (size_t f = 0; f < n; f++)
+            dy[f] = share * change[shape->breadth * n + f];
+        status = change_phi(tangent, &rim, phi, transom->breadth * share, dy, dy + n,
+                            change + (shape->rim + j) * n);
+    }
+    free(dy);
+    free(rim.move);
+    return status;
+}
+
 igabem_status shape_change(const igabem_tangent *tangent, const struct shape *shape,
-                           double **change, double **row)
+                           const double *base, double **change, double **row)
 {
     size_t n = tangent->field->n, cells = shape->surface->nx * shape->surface->ny;
     size_t rows = cells + (shape->transom ? shape->transom->cells * shape->transom->n : 0);
@@ -345,9 +408,106 @@ igabem_status shape_change(const igabem_tangent *tangent, const struct shape *sh
     if (status == IGABEM_OK)
         status = edge_change(tangent, &shape->surface->waterline, &line);
     if (status == IGABEM_OK)
-        status = change_surface(tangent, shape, &line, *change, *row);
+        status = change_lines(tangent, shape, &line, *change);
+    if (status == IGABEM_OK)
+        status = change_surface(tangent, shape, &line, base, *change, *row);
     if (status == IGABEM_OK && shape->transom)
-        status = change_transom(tangent, shape, &line, *change, *row + cells * n);
+        status = change_transom(tangent, shape, *change, *row + cells * n);
     free(line.move);
     return status;
+}
+
+/* The surface with its inner edge moved by step times a field's moves of the edge's points; the
+ * points are the caller's. */
+static struct free_surface move_surface(const struct edge_change *line,
+                                        const struct free_surface *own, size_t f, double step,
+                                        struct edge_point *point)
+{
+    struct free_surface moved = *own;
+    for (size_t k = 0; k < own->waterline.n; k++) {
+        point[k] = own->waterline.point[k];
+        point[k].at[1] += step * line->move[k * line->n + f];
+    }
+    moved.waterline.point = point;
+    if (own->transom > 0)
+        moved.transom = point[0].at[1];
+    return moved;
+}
+
+/* Work for one field: of the cells' parts both ways, of phi and base, of the edge's points. */
+struct cells_work {
+    double (*part[2])[7], *phi;
+    struct base_point *base;
+    struct edge_point *point;
+};
+
+static void change_parts(const igabem_tangent *tangent, const struct edge_change *line, size_t f,
+                         const double *phi, const double *base, const struct cells_work *work,
+                         double *change)
+{
+    /* of a cell's length, for the largest move: rounding over it and its square are both small */
+    static const double share = 2e-5;
+    static const size_t column[SHAPE_CELL] = {1, 3, 4, 5};
+    const igabem_solution *solution = tangent->solution;
+    const struct free_surface *surface = solution->surface;
+    size_t n = line->n, cells = surface->nx * surface->ny;
+    size_t unknowns = cells + surface->stern - surface->bow, width = tangent->field->width;
+    double largest = 0.0;
+    const struct field *field = tangent->field;
+    for (size_t k = 0; k < field->controls; k++)
+        largest = fmax(largest, fabs(field->net[k * width + f]));
+    double step = largest > 0 ? share * surface->dx / largest : 1.0;
+    for (int side = 0; side < 2; side++) {
+        double h = side ? step : -step;
+        struct free_surface moved = move_surface(line, surface, f, h, work->point);
+        for (size_t k = 0; k < unknowns; k++)
+            work->phi[k] = solution->surface_phi[k] + h * phi[k * n + f];
+        for (size_t c = 0; c < cells; c++) {
+            const double *d = base + 5 * c * n + f;
+            work->base[c] = solution->base[c];
+            for (size_t k = 0; k < 2; k++)
+                work->base[c].gradient[k] += h * d[k * n];
+            for (size_t k = 0; k < 3; k++)
+                work->base[c].second[k] += h * d[(2 + k) * n];
+        }
+        base_flow_radiate(&moved, work->base, work->phi, solution->speed, solution->k0,
+                          work->part[side]);
+    }
+    for (size_t p = 0; p < BASE_FLOW_SIDE * BASE_FLOW_SIDE * cells; p++)
+        for (size_t k = 0; k < SHAPE_CELL; k++)
+            change[(SHAPE_CELL * p + k) * width + f] =
+                (work->part[1][p][column[k]] - work->part[0][p][column[k]]) / (2.0 * step);
+}
+
+igabem_status shape_cells(const igabem_tangent *tangent, const double *phi, const double *base,
+                          double **change)
+{
+    const struct free_surface *surface = tangent->solution->surface;
+    size_t n = tangent->field->n, cells = surface->nx * surface->ny;
+    size_t parts = BASE_FLOW_SIDE * BASE_FLOW_SIDE * cells;
+    struct edge_change line = {.move = NULL};
+    *change = calloc(SHAPE_CELL * parts * tangent->field->width, sizeof **change);
+    igabem_status result =
+        *change ? edge_change(tangent, &surface->waterline, &line) : tangent_no_memory(n);
+    bool failed = result != IGABEM_OK;
+#pragma omp parallel reduction(| : failed)
+    {
+        double(*part)[7] = malloc(2 * parts * sizeof *part);
+        const struct cells_work work = {
+            {part, part ? part + parts : NULL},
+            malloc((cells + surface->nx) * sizeof(double)),
+            malloc(cells * sizeof(struct base_point)),
+            malloc((surface->waterline.n + 1) * sizeof(struct edge_point))};
+        failed |= !part || !work.phi || !work.base || !work.point;
+#pragma omp for schedule(dynamic, 1)
+        for (size_t f = 0; f < n; f++)
+            if (!failed)
+                change_parts(tangent, &line, f, phi, base, &work, *change);
+        free(part);
+        free(work.phi);
+        free(work.base);
+        free(work.point);
+    }
+    free(line.move);
+    return failed ? tangent_no_memory(n) : IGABEM_OK;
 }

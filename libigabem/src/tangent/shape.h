@@ -29,9 +29,22 @@ void shape_place(const igabem_solution *solution, struct shape *shape);
 
 /* Their changes along the fields of a tangent while phi stays: creates change[size][fields], and
  * row[cells of surface and strip][fields], what the fields take from the rows of the system there
- * outside of its integrals. */
+ * outside of its integrals. base[cells][5][fields]: of the base flow of a double model. */
 igabem_status shape_change(const igabem_tangent *tangent, const struct shape *shape,
-                           double **change, double **row);
+                           const double *base, double **change, double **row);
+
+/* Of these: stations, breadth and corners; and phi of the rim, given that on the hull. */
+igabem_status shape_lines(const igabem_tangent *tangent, const struct shape *shape, double *change);
+igabem_status shape_rim_change(const igabem_tangent *tangent, const struct shape *shape,
+                               const double *phi, double *change);
+
+/* What the cells of a double model radiate changes with the surface's phi, [unknowns and
+ * edge][fields], with its base flow and with its lines: creates change[parts][SHAPE_CELL][width of
+ * the field], of y, of the source and of the dipole along x and y, by differences of
+ * base_flow_radiate(). */
+enum { SHAPE_CELL = 4 };
+igabem_status shape_cells(const igabem_tangent *tangent, const double *phi, const double *base,
+                          double **change);
 
 /* Factors of the columns of the hull's phi in that of the rim at a point where the face radiates:
  * adds them to row[unknowns of the hull]. */

@@ -218,5 +218,6 @@ void igabem_tangent_free(igabem_tangent *tangent)
     free(tangent->velocity);
     free(tangent->shape);
     free(tangent->change);
+    free(tangent->cells);
     free(tangent);
 }

@@ -18,6 +18,7 @@ struct igabem_tangent {
     double *velocity;    /* [n][3][unknowns] coefficients; NULL: the solution has no velocity */
     struct shape *shape; /* of a potential, else NULL: what else the hull enters it by, */
     double *change;      /* and its changes while phi stays, [size][width of the field] */
+    double *cells;       /* of what a double model's cells radiate (shape_cells()); else NULL */
 };
 
 igabem_status tangent_no_memory(size_t fields);
