@@ -2,6 +2,7 @@
 
 #include "core/constants.h"
 #include "core/error.h"
+#include "core/vector_math.h"
 
 #include <nurbs/basis.h>
 
@@ -131,6 +132,30 @@ void element_gather(const struct element *element, const double *coefficients, d
         }
     }
     memcpy(out, half, m * n * sizeof *out);
+}
+
+VECTOR_MULTIVERSION
+void element_controls(const struct element *element, const double *factor, double *point)
+{
+    size_t m = (size_t)element->degree[0] + 1, n = (size_t)element->degree[1] + 1;
+    const double *su = element->shape[0], *sv = element->shape[1];
+    double half[ELEMENT_FUNCTIONS];
+    for (size_t a = 0; a < m; a++)
+        for (size_t j = 0; j < n; j++) {
+            double sum = 0.0;
+            for (size_t b = 0; b < n; b++)
+                sum += sv[j * n + b] * factor[a * n + b];
+            half[a * n + j] = sum;
+        }
+    for (size_t i = 0; i < m; i++) {
+        size_t corner = i * element->control_stride;
+        double *row = point + element->control + corner, sum[ELEMENT_SIDE] = {0.0};
+        for (size_t a = 0; a < m; a++)
+            for (size_t j = 0; j < n; j++)
+                sum[j] += su[i * m + a] * half[a * n + j];
+        for (size_t j = 0; j < n; j++)
+            row[j] += element->shape_weight ? element->shape_weight[corner + j] * sum[j] : sum[j];
+    }
 }
 
 const struct element *mesh_locate(const struct mesh *mesh, size_t patch, const double uv[2],
@@ -287,8 +312,9 @@ static void extract_direction(const struct density_patch *patch, int d, double *
 }
 
 static void fill_element(const struct density_patch *patch, const nurbs_surface *surface,
-                         size_t index, const struct extraction *u, const struct extraction *v,
-                         size_t k, size_t l, double **storage, struct element *element)
+                         size_t index, size_t base, const struct extraction *u,
+                         const struct extraction *v, size_t k, size_t l, double **storage,
+                         struct element *element)
 {
     size_t corner = u->density_first * patch->size[1] + v->density_first;
     size_t shape = u->shape_first * nurbs_surface_size(surface, 1) + v->shape_first;
@@ -303,6 +329,12 @@ static void fill_element(const struct density_patch *patch, const nurbs_surface 
         .net = *storage,
         .first = patch->offset + corner,
         .stride = patch->size[1],
+        .shape = {u->shape, v->shape},
+        .shape_weight = nurbs_surface_weights(patch->surface)
+                            ? nurbs_surface_weights(patch->surface) + shape
+                            : NULL,
+        .control = base + shape,
+        .control_stride = nurbs_surface_size(surface, 1),
         .rational = patch->weights != NULL,
         .sign = patch->hull.sign,
     };
@@ -324,7 +356,7 @@ static void panel_range(const struct density_patch *patch, int d, size_t panel, 
 }
 
 static igabem_status fill_patch(const struct density *density, const nurbs_surface *surface,
-                                size_t index, struct mesh *mesh, double **storage)
+                                size_t index, size_t base, struct mesh *mesh, double **storage)
 {
     const struct density_patch *patch = &density->patch[index];
     struct extraction *u = malloc((patch->spans[0] + patch->spans[1]) * sizeof *u);
@@ -345,7 +377,7 @@ static igabem_status fill_patch(const struct density *density, const nurbs_surfa
                 .upper = {patch->panel_breaks[0][a + 1], patch->panel_breaks[1][b + 1]}};
             for (size_t k = range_u[0]; k < range_u[1]; k++)
                 for (size_t l = range_v[0]; l < range_v[1]; l++)
-                    fill_element(patch, surface, index, &u[k], &v[l], k, l, storage,
+                    fill_element(patch, surface, index, base, &u[k], &v[l], k, l, storage,
                                  &mesh->element[mesh->n++]);
             panel->count = mesh->n - panel->first;
         }
@@ -392,9 +424,12 @@ igabem_status mesh_create_on(const struct density *density, const nurbs_surface 
     if (!mesh->element || !mesh->panel || !mesh->storage)
         status = igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu elements", elements);
     double *storage = mesh->storage;
-    for (size_t k = 0; k < density->patches && status == IGABEM_OK; k++)
-        status = fill_patch(density, surface ? surface[k] : density->patch[k].surface, k, mesh,
-                            &storage);
+    size_t base = 0;
+    for (size_t k = 0; k < density->patches && status == IGABEM_OK; k++) {
+        const nurbs_surface *own = surface ? surface[k] : density->patch[k].surface;
+        status = fill_patch(density, own, k, base, mesh, &storage);
+        base += nurbs_surface_size(own, 0) * nurbs_surface_size(own, 1);
+    }
     if (status != IGABEM_OK) {
         mesh_free(mesh);
         return status;

@@ -23,8 +23,12 @@ struct element {
     size_t first;                /* unknown that belongs to the function (0, 0) of the span */
     size_t stride;               /* from function (i, j) to (i+1, j) */
     int rational;                /* of the density: weight != NULL */
-    double sign;                 /* outward normal = sign * S_s x S_t */
-    double box[2][3];            /* bounds of the Bezier points, hence of the piece */
+    const double *shape[2];      /* the same extraction for the functions of the surface, */
+    const double *shape_weight;  /* their weights, NULL: polynomial, */
+    size_t control;              /* and its first control point, of those of all patches */
+    size_t control_stride;
+    double sign;      /* outward normal = sign * S_s x S_t */
+    double box[2][3]; /* bounds of the Bezier points, hence of the piece */
 };
 
 /* Elements that see the same functions of the density: what a distant point sees as one. */
@@ -74,6 +78,10 @@ void element_gather(const struct element *element, const double *coefficients, d
 /* The element that holds parameters of a patch, and the local ones. */
 const struct element *mesh_locate(const struct mesh *mesh, size_t patch, const double uv[2],
                                   double local[2]);
+
+/* Turns factors of homogeneous Bezier values over the element, [pu+1][pv+1], into factors of the
+ * values at control points of its surface: adds them to point[]. */
+void element_controls(const struct element *element, const double *factor, double *point);
 
 /* Derivatives of a field along the local parameters. */
 void element_slope(const struct element *element, const double *coefficients, const double local[2],

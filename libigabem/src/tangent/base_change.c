@@ -107,8 +107,9 @@ static igabem_status change_phi(struct flow *flow, double *factors, const int *p
         struct row_layer_work work[2];
         double *row = malloc(CONTRACT_ROWS * width * sizeof *row);
         double *sum = malloc(CONTRACT_ROWS * fields * sizeof *sum);
+        double *point = malloc(CONTRACT_ROWS * field->points * sizeof *point);
         memset(work, 0, sizeof work);
-        failed |= !row || !sum;
+        failed |= !row || !sum || !point;
         for (size_t k = 0; k < flow->layers; k++)
             failed |= !row_layer_work_create(&flow->layer[k], &work[k]);
 #pragma omp for schedule(dynamic, 1)
@@ -120,18 +121,20 @@ static igabem_status change_phi(struct flow *flow, double *factors, const int *p
             memset(sum, 0, CONTRACT_ROWS * fields * sizeof *sum);
             for (size_t r = 0; r < count; r++) {
                 static const double none[2] = {0.0, 0.0};
-                struct layer_point point;
+                struct layer_point place;
                 double turn = 0.0, *to = row + r * width;
-                layer_place(flow->hull, i + r, &point);
-                const struct layer_point off = {.at = {point.at[0], point.at[1], point.at[2]}};
-                failed |= !row_layer_add(&flow->layer[0], &point, &work[0], NULL, to, &turn);
+                layer_place(flow->hull, i + r, &place);
+                const struct layer_point off = {.at = {place.at[0], place.at[1], place.at[2]}};
+                failed |= !row_layer_add(&flow->layer[0], &place, &work[0], NULL, to, &turn);
                 if (flow->layers > 1)
                     failed |= !row_layer_add(&flow->layer[1], &off, &work[1], NULL,
                                              to + field->controls, &turn);
-                fold_point(&field->mesh->element[point.home[0]], point.local[0], turn, none,
-                           to + field->offset[point.home[0]]);
+                fold_point(&field->mesh->element[place.home[0]], place.local[0], turn, none,
+                           to + field->offset[place.home[0]]);
             }
-            contract(field->controls, row, width, field->net, field->width, fields, sum);
+            for (size_t r = 0; r < CONTRACT_ROWS; r++)
+                field_points_of(field, row + r * width, point + r * field->points);
+            contract(field->points, point, field->points, field->point, field->width, fields, sum);
             contract(flow->shape->size, row + field->controls, width, flow->numbers, field->width,
                      fields, sum);
             for (size_t r = 0; r < count; r++)
@@ -142,6 +145,7 @@ static igabem_status change_phi(struct flow *flow, double *factors, const int *p
             row_layer_work_free(&work[k]);
         free(row);
         free(sum);
+        free(point);
     }
     igabem_status status = failed ? tangent_no_memory(fields) : IGABEM_OK;
     const struct matrix matrix = {n, n, factors, flow->hull->threads, NULL};
@@ -356,7 +360,7 @@ static bool add_layer(const struct flow *flow, size_t l, const double at[2], str
 
 /* The changes at one cell: fills out[FLOW][fields]. */
 static bool change_cell(const struct flow *flow, size_t cell, struct flow_work work[2], double *row,
-                        double *sum, double *out)
+                        double *point, double *sum, double *out)
 {
     static const double middle[2] = {0.5, 0.5};
     const struct field *field = flow->tangent->field;
@@ -374,7 +378,9 @@ static bool change_cell(const struct flow *flow, size_t cell, struct flow_work w
     for (size_t r = 0; r < FLOW; r += CONTRACT_ROWS) {
         double *from = row + r * width, *to = sum + r * field->n;
         contract(flow->n, from, width, flow->phi_change, field->width, field->n, to);
-        contract(field->controls, from + flow->n, width, field->net, field->width, field->n, to);
+        for (size_t k = 0; k < CONTRACT_ROWS; k++)
+            field_points_of(field, from + k * width + flow->n, point + k * field->points);
+        contract(field->points, point, field->points, field->point, field->width, field->n, to);
         contract(flow->shape->size, from + flow->n + field->controls, width, flow->numbers,
                  field->width, field->n, to);
     }
@@ -393,8 +399,9 @@ static igabem_status change_cells(const struct flow *flow, double *change)
         struct flow_work work[2];
         double *row = malloc(2 * CONTRACT_ROWS * width * sizeof *row);
         double *sum = malloc(2 * CONTRACT_ROWS * field->n * sizeof *sum);
+        double *point = malloc(CONTRACT_ROWS * field->points * sizeof *point);
         memset(work, 0, sizeof work);
-        failed |= !row || !sum;
+        failed |= !row || !sum || !point;
         for (size_t l = 0; l < flow->layers; l++) {
             failed |= layer_work_create(&flow->layer[l].surface, &work[l].layer) != IGABEM_OK;
             work[l].layer.nodes.with_jets = true;
@@ -402,7 +409,8 @@ static igabem_status change_cells(const struct flow *flow, double *change)
 #pragma omp for schedule(dynamic, 4)
         for (size_t c = 0; c < surface->nx * surface->ny; c++)
             if (!failed)
-                failed |= !change_cell(flow, c, work, row, sum, change + FLOW * field->n * c);
+                failed |=
+                    !change_cell(flow, c, work, row, point, sum, change + FLOW * field->n * c);
         for (size_t l = 0; l < flow->layers; l++) {
             layer_work_free(&work[l].layer);
             row_nodes_free(&work[l].near);
@@ -410,6 +418,7 @@ static igabem_status change_cells(const struct flow *flow, double *change)
         }
         free(row);
         free(sum);
+        free(point);
     }
     return failed ? tangent_no_memory(field->n) : IGABEM_OK;
 }

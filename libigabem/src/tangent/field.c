@@ -150,7 +150,8 @@ static igabem_status move_surfaces(const igabem_hull *hull, const struct density
     return status;
 }
 
-static void take_nets(const struct mesh *from, size_t first, struct field *field)
+static void take_values(const struct mesh *from, const nurbs_surface *const *surface,
+                        size_t patches, size_t first, struct field *field)
 {
     for (size_t e = 0; e < from->n; e++) {
         const struct element *element = &from->element[e];
@@ -159,6 +160,13 @@ static void take_nets(const struct mesh *from, size_t first, struct field *field
             for (size_t c = 0; c < 3 && first + c < field->n; c++)
                 field->net[(field->offset[e] + k) * field->width + first + c] =
                     element->net[4 * k + c];
+    }
+    double *to = field->point + first;
+    for (size_t p = 0; p < patches; p++) {
+        const double *point = nurbs_surface_points(surface[p]);
+        for (size_t k = 0; k < patch_points(surface[p]); k++, to += field->width)
+            for (size_t c = 0; c < 3 && first + c < field->n; c++)
+                to[c] = point[3 * k + c];
     }
 }
 
@@ -221,8 +229,11 @@ igabem_status field_make(const igabem_hull *hull, const struct density *density,
         field->mesh = mesh;
         field->controls = total;
         field->net = calloc(total * field->width, sizeof *field->net);
+        for (size_t p = 0; p < density->patches; p++)
+            field->points += patch_points(density->patch[p].surface);
+        field->point = calloc(field->points * field->width, sizeof *field->point);
     }
-    if (!field || !surface || !field->offset || !field->net)
+    if (!field || !surface || !field->offset || !field->net || !field->point)
         status = igabem_fail(IGABEM_ERROR_MEMORY, "no memory for %zu fields", n);
     for (size_t first = 0; first < n && status == IGABEM_OK; first += 3) {
         struct mesh *moves = NULL;
@@ -230,7 +241,7 @@ igabem_status field_make(const igabem_hull *hull, const struct density *density,
         if (status == IGABEM_OK)
             status = mesh_create_on(density, (const nurbs_surface *const *)surface, &moves);
         if (status == IGABEM_OK)
-            take_nets(moves, first, field);
+            take_values(moves, (const nurbs_surface *const *)surface, hull->n, first, field);
         mesh_free(moves);
         for (size_t p = 0; p < hull->n; p++) {
             nurbs_surface_free(surface[p]);
@@ -252,7 +263,15 @@ void field_free(struct field *field)
         return;
     free(field->offset);
     free(field->net);
+    free(field->point);
     free(field);
+}
+
+void field_points_of(const struct field *field, const double *factor, double *point)
+{
+    memset(point, 0, field->points * sizeof *point);
+    for (size_t e = 0; e < field->mesh->n; e++)
+        element_controls(&field->mesh->element[e], factor + field->offset[e], point);
 }
 
 const double *field_net(const struct field *field, const struct element *element)

@@ -15,6 +15,8 @@ struct field {
     size_t controls; /* control values of all elements */
     size_t *offset;  /* [elements] of the first of each */
     double *net;     /* [controls][width]: weight times V */
+    size_t points;   /* control points of the density's surfaces */
+    double *point;   /* [points][width]: V */
 };
 
 /* move[n][points][3] of all patches of the hull; refuses what is not allowed. */
@@ -33,6 +35,10 @@ void field_hold(const igabem_hull *hull, double *value);
 
 /* Control values of an element, [pu+1][pv+1][width]. */
 const double *field_net(const struct field *field, const struct element *element);
+
+/* Turns factors of all control values into factors of V at the control points, of which there are
+ * fewer: fills point[points]. */
+void field_points_of(const struct field *field, const double *factor, double *point);
 
 /* V, V_s and V_t at local parameters of an element: fills v[3][n]. */
 void field_at(const struct field *field, const struct element *element, const double local[2],

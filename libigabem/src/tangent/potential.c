@@ -26,17 +26,21 @@ static igabem_status right_sides(const igabem_tangent *tangent, const struct row
     {
         double *row = calloc(CONTRACT_ROWS * width, sizeof *row);
         double *sum = malloc(CONTRACT_ROWS * field->n * sizeof *sum);
+        double *point = calloc(CONTRACT_ROWS * field->points, sizeof *point);
         struct row_work *work = row_work_create(rows);
-        igabem_status status = row && sum && work ? IGABEM_OK : IGABEM_ERROR_MEMORY;
+        igabem_status status = row && sum && point && work ? IGABEM_OK : IGABEM_ERROR_MEMORY;
 #pragma omp for schedule(dynamic, 1)
         for (size_t i = 0; i < n; i += CONTRACT_ROWS) {
             size_t count = n - i < CONTRACT_ROWS ? n - i : CONTRACT_ROWS;
-            for (size_t r = 0; r < count && status == IGABEM_OK; r++)
+            for (size_t r = 0; r < count && status == IGABEM_OK; r++) {
                 status = rows_fill(rows, i + r, work, row + r * width);
+                field_points_of(field, row + r * width, point + r * field->points);
+            }
             if (status != IGABEM_OK)
                 continue;
             memset(sum, 0, CONTRACT_ROWS * field->n * sizeof *sum);
-            contract(field->controls, row, width, field->net, field->width, field->n, sum);
+            contract(field->points, point, field->points, field->point, field->width, field->n,
+                     sum);
             contract(tangent->shape->size, row + field->controls, width, tangent->change,
                      field->width, field->n, sum);
             for (size_t f = 0; f < field->n; f++)
@@ -46,6 +50,7 @@ static igabem_status right_sides(const igabem_tangent *tangent, const struct row
         row_work_free(work);
         free(row);
         free(sum);
+        free(point);
 #pragma omp critical(igabem_potential_tangent)
         if (status != IGABEM_OK)
             result = status;
@@ -226,24 +231,18 @@ igabem_status potential_tangent(igabem_tangent *tangent)
     return status;
 }
 
-/* Changes of all numbers of a row of the Kochin function: [width of a row][width of the field]. */
-static igabem_status gather_changes(const igabem_tangent *tangent, size_t numbers, double **result)
+/* Changes of phi and phi_x on the hull, [2][n][width of the field]. */
+static double *gather_changes(const igabem_tangent *tangent)
 {
     const struct field *field = tangent->field;
     size_t hull = tangent->solution->density->n, width = field->width;
-    double *change = *result = calloc(numbers * width, sizeof *change);
-    if (!change)
-        return tangent_no_memory(field->n);
-    for (size_t f = 0; f < field->n; f++)
+    double *change = calloc(2 * hull * width, sizeof *change);
+    for (size_t f = 0; f < field->n && change; f++)
         for (size_t j = 0; j < hull; j++) {
             change[j * width + f] = tangent->sigma[f * hull + j];
             change[(hull + j) * width + f] = tangent->velocity[3 * f * hull + j];
         }
-    change += 2 * hull * width;
-    memcpy(change, field->net, field->controls * width * sizeof *change);
-    memcpy(change + field->controls * width, tangent->change,
-           tangent->shape->size * width * sizeof *change);
-    return IGABEM_OK;
+    return change;
 }
 
 /* What the cells of a double model radiate, F = (q - m.grad) E of each part on z = 0: adds to h[2],
@@ -276,23 +275,23 @@ igabem_status potential_kochin(const igabem_tangent *tangent, double largest, si
     const igabem_solution *solution = tangent->solution;
     size_t cells = 0;
     struct waves *waves;
-    double *change = NULL;
     igabem_status status = waves_create(tangent, largest, &waves);
     if (status != IGABEM_OK)
         return status;
     if (tangent->cells)
         cells = SHAPE_CELL * BASE_FLOW_SIDE * BASE_FLOW_SIDE * solution->surface->nx *
                 solution->surface->ny;
-    size_t numbers = waves_width(waves);
-    status = gather_changes(tangent, numbers, &change);
-    bool failed = status != IGABEM_OK;
+    size_t numbers = waves_width(waves), own = 2 * solution->density->n;
+    double *change = gather_changes(tangent);
+    bool failed = !change;
 #pragma omp parallel reduction(| : failed)
     {
         double *row = calloc(CONTRACT_ROWS * numbers, sizeof *row);
         double *sum = malloc(CONTRACT_ROWS * field->n * sizeof *sum);
         double *cell = calloc(CONTRACT_ROWS * cells + 1, sizeof *cell);
+        double *point = malloc(CONTRACT_ROWS * field->points * sizeof *point);
         struct waves_work *work = waves_work_create(waves);
-        failed |= !row || !sum || !cell || !work;
+        failed |= !row || !sum || !cell || !point || !work;
 #pragma omp for schedule(dynamic, 1)
         for (size_t i = 0; i < m; i += 2) {
             if (failed)
@@ -303,7 +302,13 @@ igabem_status potential_kochin(const igabem_tangent *tangent, double largest, si
                 if (cells)
                     cells_row(solution, t[i + k], h[i + k], cell + 2 * k * cells);
             }
-            contract(numbers, row, numbers, change, field->width, field->n, sum);
+            for (size_t r = 0; r < CONTRACT_ROWS; r++)
+                field_points_of(field, row + r * numbers + own, point + r * field->points);
+            contract(own, row, numbers, change, field->width, field->n, sum);
+            contract(field->points, point, field->points, field->point, field->width, field->n,
+                     sum);
+            contract(tangent->shape->size, row + own + field->controls, numbers, tangent->change,
+                     field->width, field->n, sum);
             if (cells)
                 contract(cells, cell, cells, tangent->cells, field->width, field->n, sum);
             for (size_t f = 0; f < field->n; f++)
@@ -314,6 +319,7 @@ igabem_status potential_kochin(const igabem_tangent *tangent, double largest, si
         free(row);
         free(sum);
         free(cell);
+        free(point);
     }
     free(change);
     waves_free(waves);
