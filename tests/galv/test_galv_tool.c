@@ -568,6 +568,7 @@ static void test_bad_models_are_refused(void)
     expect("info none.h5", 1, "none.h5");
     expect("backmap model.h5 --latent 1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17,18,19,20", 1,
            "at most");
+    expect("reconstruct model.h5 --latent nan", 1, "'nan' is neither finite numbers u1,u2,...");
     expect("project model.h5 --hull shape.yaml", 1, "shape.yaml");
     scratch_write("few.csv", "x,y,z\n0,0,0\n");
     expect("project model.h5 --hull few.csv", 1, "1 points");

@@ -29,6 +29,7 @@ CASES = [
     ("nurbs info knots.json", 1, ["knots.json", "knots"]), ("nurbs info plain.iges", 1, ["plain.iges"]),
     ("nurbs convert wigley.json out.xyz", 1, ["out.xyz"]), ("nurbs skin grid.csv -o g.json", 1, ["grid.csv:2", "zero"]),
     ("nurbs eval wigley.json --patch 7 --at uv.csv", 1, ["7"]), ("nurbs plot wigley.json -o p.gif", 2, [".svg"]),
+    ("nurbs edit wigley.json mirror:q -o q.json", 2, ["mirror:q", "x, y or z"]),
     ("igabem", 2, ["command"]), ("igabem solve wigley.json", 2, ["fr"]), ("igabem solve wigley.json --fr fast", 2, ["fr", "fast"]),
     ("igabem solve wigley.json --fr -0.3", 2, ["-0.3"]), ("igabem solve wigley.json --fr 0.3 --formulation best", 2, ["best"]),
     ("igabem solve wigley.json --fr 0.3 --elements 0,0", 2, ["elements", "0"]), ("igabem solve none.json --fr 0.3", 1, ["none.json", "No such file"]),

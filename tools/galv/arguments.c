@@ -3,8 +3,10 @@
 #include "cli.h"
 #include "plot/plot.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 int arguments_read(int argc, char **argv, const struct settings *table, struct arguments *a)
 {
@@ -109,6 +111,9 @@ bool rows_read(const char *text, size_t width, const char *prefix, struct rows *
         free(list);
     } else {
         struct cli_table table;
+        if (strcmp(text, "-") != 0 && access(text, F_OK) != 0)
+            return cli_refuse("'%s' is neither finite numbers %s1,%s2,... nor a CSV file: %s", text,
+                              prefix, prefix, strerror(errno));
         if (!cli_table_read(text, &table))
             return false;
         ok = from_table(&table, width, prefix, text, rows);

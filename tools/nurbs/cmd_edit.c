@@ -181,7 +181,8 @@ static int read_operation(const char *text, const operator* with, operation *op)
         if (with->patches == mirror && length == 1 && strchr("xyz", *at))
             op->value[op->count++] = *at - 'x';
         else if (!cli_parse_double(number, &op->value[op->count++]))
-            return cli_usage("'%s': '%s' is not a number", text, number);
+            return cli_usage("'%s': '%s' is not %s", text, number,
+                             with->patches == mirror ? "x, y or z" : "a number");
         at += length;
     }
     if (*at || !suits(with, op))

@@ -178,7 +178,7 @@ static nurbs_status read_face(soup *s, const char *at, size_t number)
         if (*at == '\n' || *at == '\0' || *at == '#' || status != NURBS_OK)
             break;
         long index = strtol(at, &end, 10);
-        size_t vertex = index > 0 ? (size_t)index - 1 : s->vertices - (size_t)-index;
+        size_t vertex = index > 0 ? (size_t)index - 1 : s->vertices + (size_t)index;
         if (end == at || index == 0 || vertex >= s->vertices)
             return nurbs_fail(NURBS_ERROR_FORMAT,
                               "%s:%zu: '%.12s' is no vertex of the %zu before it", s->path, number,
