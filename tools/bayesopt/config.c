@@ -328,13 +328,6 @@ void config_start(struct config *c)
 
 void config_free(struct config *c)
 {
-    for (size_t i = 1; i < c->n_templates; i++)
-        free(c->templates[i]);
-    for (size_t i = 1; i < c->n_conditions; i++)
-        free(c->conditions[i]);
-    for (size_t j = 0; c->variables && j < c->n_variables; j++)
-        for (size_t i = 1; i < c->variables[j].n_labels; i++)
-            free(c->variables[j].labels[i]);
     if (c->compiled)
         regfree(&c->pattern);
     settings_free(&CONFIG, c);

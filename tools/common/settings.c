@@ -221,12 +221,19 @@ bool settings_set_text(struct settings_source *source, const struct setting *row
     return ok;
 }
 
+/* Pointers that a row owns in the target. */
+static size_t count_pointers(const struct setting *row)
+{
+    bool texts = row->type == SETTING_TEXT || row->type == SETTING_FILE;
+    return row->type < SETTING_TEXT ? 0 : texts && row->n_most ? row->n_most : 1;
+}
+
 void settings_start(const struct settings *table, void *target)
 {
     for (size_t r = 0; r < table->n; r++) {
         const struct setting *row = &table->rows[r];
-        if (row->type >= SETTING_TEXT)
-            *(void **)(void *)((char *)target + row->offset) = NULL;
+        for (size_t i = 0; i < count_pointers(row); i++)
+            ((void **)(void *)((char *)target + row->offset))[i] = NULL;
         if (row->otherwise)
             settings_set_text(NULL, row, 0, "", row->otherwise, target);
     }
@@ -236,14 +243,17 @@ void settings_free(const struct settings *table, void *target)
 {
     for (size_t r = 0; r < table->n; r++) {
         const struct setting *row = &table->rows[r];
-        if (row->type < SETTING_TEXT)
+        size_t pointers = count_pointers(row);
+        if (!pointers)
             continue;
         void **at = (void **)(void *)((char *)target + row->offset);
         size_t n = row->type == SETTING_ROWS ? *(size_t *)(void *)((char *)target + row->count) : 0;
         for (size_t i = 0; *at && i < n; i++)
             settings_free(row->table, (char *)*at + i * row->size);
-        free(*at);
-        *at = NULL;
+        for (size_t i = 0; i < pointers; i++) {
+            free(at[i]);
+            at[i] = NULL;
+        }
     }
 }
 
