@@ -431,6 +431,7 @@ static void test_restore(void)
     CU_ASSERT_FALSE(settings_restore(&PART, "bounds = 1, 2\n", &part, &line));
     CU_ASSERT_EQUAL(line, 0);
     CU_ASSERT_FALSE(settings_restore(&PART, "name = a\nbounds = 2, 1\n", &part, &line));
+    CU_ASSERT_FALSE(settings_restore(&PART, "bounds = 1, 2\nname =\n", &part, &line));
     CU_ASSERT_TRUE(settings_restore(&PART, "bounds = 1, 2\nname = a\n", &part, &line));
     settings_free(&PART, &part);
     settings_free(&TABLE, &run);

@@ -162,7 +162,9 @@ static bool is_whole(const struct settings *table, const char *text, void *targe
         size_t length = strlen(key);
         while (at && (strncmp(at, key, length) != 0 || strncmp(at + length, " =", 2) != 0))
             at = strchr(at, '\n') ? strchr(at, '\n') + 1 : NULL;
-        if (!at)
+        const char *value = at ? at + length + 2 : "";
+        value += *value == ' ';
+        if (*value == '\0' || *value == '\n')
             return false;
     }
     if (table->check)
