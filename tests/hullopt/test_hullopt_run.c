@@ -141,7 +141,7 @@ static void test_report(void)
 /* Report alone makes the same files again, and prints the summary as one JSON object. */
 static void test_report_again(void)
 {
-    const char *const report[] = {"report", out, "--json", NULL};
+    const char *const report[] = {"report", out, "--threads", "2", "--json", NULL};
     char path[300];
     json_t *before = read_json("summary.json");
     snprintf(path, sizeof path, "%s/report.html", out);
