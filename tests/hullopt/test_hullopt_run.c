@@ -168,7 +168,8 @@ static void test_report_elsewhere(void)
     snprintf(path, sizeof path, "%s/report.html", out);
     CU_ASSERT_EQUAL(unlink(path), 0);
     CU_ASSERT_EQUAL(chmod(out, 0500), 0);
-    const char *const report[] = {"report", out, "--out", elsewhere, "--json", NULL};
+    const char *const report[] = {"report",    out, "--out",  elsewhere,
+                                  "--threads", "2", "--json", NULL};
     CU_ASSERT_EQUAL(runner_run(&runner, report), 0);
     json_t *printed = json_loads(runner.out, 0, NULL);
     CU_ASSERT_TRUE(json_equal(printed, whole));

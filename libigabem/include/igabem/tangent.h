@@ -7,9 +7,9 @@
  *
  *     A sigma' = U n_x' - A' sigma,     H' = E sigma' + E' sigma
  *
- * (docs/theory.md, section 15). All fields together cost about as much as a solution (double-model: some three), where
- * differences cost one or two for each field. igabem_cw_gradient() has the derivatives of C_w by
- * all control points.
+ * (docs/theory.md, section 15). All fields together cost about as much as a solution (double-model:
+ * some three), where differences cost one or two for each field. igabem_cw_gradient() has the
+ * derivatives of C_w by all control points.
  */
 #ifndef IGABEM_TANGENT_H
 #define IGABEM_TANGENT_H
