@@ -451,7 +451,8 @@ static void change_parts(const igabem_tangent *tangent, const struct edge_change
     const igabem_solution *solution = tangent->solution;
     const struct free_surface *surface = solution->surface;
     size_t n = line->n, cells = surface->nx * surface->ny;
-    size_t unknowns = cells + surface->stern - surface->bow, width = tangent->field->width;
+    size_t edge = surface->waterline.n ? surface->stern - surface->bow : 0;
+    size_t unknowns = cells + edge, width = tangent->field->width;
     double largest = 0.0;
     const struct field *field = tangent->field;
     for (size_t k = 0; k < field->controls; k++)
