@@ -24,7 +24,7 @@ static struct config config = {.path = "run.yaml",
                                .pressure = NAN,
                                .speeds = NAN,
                                .confirm = NAN,
-                               .other = {{QUANTITY_NONE}, {QUANTITY_NONE}},
+                               .other = {{.quantity = QUANTITY_NONE}, {.quantity = QUANTITY_NONE}},
                                .text = "a = 1\n"};
 static struct problem problem = {.config = &config};
 
