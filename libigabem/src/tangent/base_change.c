@@ -232,7 +232,8 @@ static void flow_kernels(int k, const double p[3], bool turned, const struct row
     const double *part = column + ROW_PHI_PART * n;
     double *value = out + ROW_D * n, *place = out + ROW_PLACE * n, *h = out + ROW_TURN * n;
     double scale = (turned && (k == 1 || k == 3) ? -1.0 : 1.0) / (2.0 * PI), sum = 0.0;
-#pragma omp simd reduction(+ : sum)
+    /* No "omp simd": clang 14 would share w, which it keeps in memory, between turns of the loop.
+     */
     for (size_t i = 0; i < n; i++) {
         struct powers w = {.r = {p[0] - x[i], p[1] - y[i], p[2] - z[i]}};
         double square = 1.0 / (w.r[0] * w.r[0] + w.r[1] * w.r[1] + w.r[2] * w.r[2]);
