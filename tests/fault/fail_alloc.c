@@ -4,6 +4,7 @@
  *   the start of main(); the k-th answers as if memory had run out, those after it do their work
  *   again. 0 or unset: none.
  * - FAULT_DISTINCT=1 counts only the first of those that the same twelve calls lead to.
+ * - FAULT_UNDER=FUNCTION counts only those that this public function leads to.
  * - FAULT_TRACE=1 prints the calls that led to it on standard error.
  * - FAULT_COUNT=FILE receives the number of allocations when the program ends.
  *
@@ -35,6 +36,18 @@ static struct {
 } let_through[MOST_RANGES];
 static size_t ranges;
 static bool distinct;
+static struct {
+    uintptr_t from, to; /* 0, 0: anywhere */
+} under;
+
+static bool is_under(void)
+{
+    void *calls[60];
+    for (int n = backtrace(calls, 60), k = 0; k < n; k++)
+        if ((uintptr_t)calls[k] >= under.from && (uintptr_t)calls[k] < under.to)
+            return true;
+    return false;
+}
 
 /* Whether the calls that lead here led here before; a table that fills up forgets none. */
 static bool seen(void)
@@ -63,6 +76,8 @@ static bool fails(const void *caller)
     for (size_t k = 0; k < ranges; k++)
         if ((uintptr_t)caller >= let_through[k].from && (uintptr_t)caller < let_through[k].to)
             return false;
+    if (under.to && !is_under())
+        return false;
     if (distinct && seen())
         return false;
     if (atomic_fetch_add(&count, 1) + 1 != fault_at)
@@ -125,8 +140,24 @@ static int note_module(struct dl_phdr_info *info, size_t size, void *data)
     return 0;
 }
 
+static void find_under(const char *name)
+{
+    ElfW(Sym) *symbol = NULL;
+    Dl_info info;
+    void *start = dlsym(RTLD_DEFAULT, name);
+    if (!start || !dladdr1(start, &info, (void **)&symbol, RTLD_DL_SYMENT) || !symbol) {
+        fprintf(stderr, "FAULT_UNDER=%s: no such function\n", name);
+        _exit(99);
+    }
+    under.from = (uintptr_t)start;
+    under.to = under.from + symbol->st_size;
+}
+
 static void prepare(void)
 {
+    const char *name = getenv("FAULT_UNDER");
+    if (name)
+        find_under(name);
     distinct = getenv("FAULT_DISTINCT");
     dl_iterate_phdr(note_module, NULL);
     unsetenv("LD_PRELOAD"); /* what the program starts is not under test */

@@ -297,19 +297,7 @@ static void test_systems(void)
     free(shift);
 }
 
-/* LAPACKE without memory for its own work arrays: the linker hands the library's calls to these. */
-static bool exhausted;
-double __real_LAPACKE_dlange(int layout, char norm, lapack_int m, lapack_int n, const double *a,
-                             lapack_int stride);
-double __wrap_LAPACKE_dlange(int layout, char norm, lapack_int m, lapack_int n, const double *a,
-                             lapack_int stride);
-double __wrap_LAPACKE_dlange(int layout, char norm, lapack_int m, lapack_int n, const double *a,
-                             lapack_int stride)
-{
-    return exhausted ? LAPACK_WORK_MEMORY_ERROR
-                     : __real_LAPACKE_dlange(layout, norm, m, n, a, stride);
-}
-
+/* LAPACKE without memory for its own work arrays: the linker hands the library's calls to this. */
 static lapack_int condition_info;
 lapack_int __real_LAPACKE_dgecon(int layout, char norm, lapack_int n, const double *a,
                                  lapack_int stride, double size, double *reciprocal);
@@ -326,9 +314,6 @@ static void test_lapack_fails(void)
 {
     double a[4] = {2, 1, 1, 3}, right[2] = {1, 1}, condition;
     const struct matrix matrix = {.n = 2, .stride = 2, .rows = a};
-    exhausted = true;
-    CU_ASSERT_EQUAL(linear_lu(&matrix, right, &condition), IGABEM_ERROR_MEMORY);
-    exhausted = false;
     condition_info = LAPACK_WORK_MEMORY_ERROR;
     CU_ASSERT_EQUAL(linear_lu(&matrix, right, &condition), IGABEM_ERROR_MEMORY);
     CU_ASSERT(strstr(igabem_last_error(), "memory") != NULL);

@@ -1,5 +1,7 @@
 #include "core/matrix.h"
 
+#include "core/error.h"
+
 #include <cblas.h>
 #include <lapacke.h>
 #include <math.h>
@@ -66,22 +68,25 @@ bool matrix_inverse(size_t n, const double *l, size_t ld, double *inverse)
     return !n || LAPACKE_dpotri_work(LAPACK_COL_MAJOR, 'U', number(n), inverse, number(ld)) == 0;
 }
 
-bool matrix_solve(size_t n, double *a, double *b, double least)
+bayesopt_status matrix_solve(size_t n, double *a, double *b, double least, bool *ok)
 {
     lapack_int *pivots = malloc(n * sizeof *pivots);
+    *ok = false;
+    if (!pivots)
+        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "no memory to solve for %zu unknowns", n);
     double largest = fabs(a[cblas_idamax(number(n * n), a, 1)]);
     /* Columns first, so A' is what is factored. */
-    bool ok = pivots && LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, number(n), number(n), a, number(n),
-                                            pivots) == 0;
-    for (size_t i = 0; i < n && ok; i++)
-        ok = fabs(a[i * n + i]) > least * largest;
-    ok = ok && LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'T', number(n), 1, a, number(n), pivots, b,
-                                   number(n)) == 0;
+    *ok = LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, number(n), number(n), a, number(n), pivots) == 0;
+    for (size_t i = 0; i < n && *ok; i++)
+        *ok = fabs(a[i * n + i]) > least * largest;
+    *ok = *ok && LAPACKE_dgetrs_work(LAPACK_COL_MAJOR, 'T', number(n), 1, a, number(n), pivots, b,
+                                     number(n)) == 0;
     free(pivots);
-    return ok;
+    return BAYESOPT_OK;
 }
 
-bool matrix_eigenvalues(size_t n, double *a, double *values)
+bool matrix_eigenvalues(size_t n, double *a, double *values, double *work)
 {
-    return LAPACKE_dsyev(LAPACK_COL_MAJOR, 'N', 'U', number(n), a, number(n), values) == 0;
+    return LAPACKE_dsyev_work(LAPACK_COL_MAJOR, 'N', 'U', number(n), a, number(n), values, work,
+                              number(3 * n)) == 0;
 }

@@ -4,6 +4,8 @@
 #ifndef BAYESOPT_MATRIX_H
 #define BAYESOPT_MATRIX_H
 
+#include <bayesopt/status.h>
+
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -26,12 +28,13 @@ void matrix_backward(size_t n, const double *l, size_t ld, double *b);
 /* inverse := lower triangle of (L L')^-1. false: L has a zero on its diagonal. O(2 n^3/3). */
 bool matrix_inverse(size_t n, const double *l, size_t ld, double *inverse);
 
-/* b := A^-1 b for a full n x n matrix, which is overwritten. false: a pivot is at most `least`
- * times the largest entry of A, or there is no memory. O(2 n^3/3). */
-bool matrix_solve(size_t n, double *a, double *b, double least);
+/* b := A^-1 b for a full n x n matrix, which is overwritten. *ok false: a pivot is at most `least`
+ * times the largest entry of A. O(2 n^3/3).
+ * @return BAYESOPT_ERROR_MEMORY */
+bayesopt_status matrix_solve(size_t n, double *a, double *b, double least, bool *ok);
 
-/* Eigenvalues of a symmetric matrix, ascending, into values [n]; A is spoilt. false: no convergence
- * or no memory. */
-bool matrix_eigenvalues(size_t n, double *a, double *values);
+/* Eigenvalues of a symmetric matrix, ascending, into values [n]; A is spoilt. work [3 n]. false: no
+ * convergence. */
+bool matrix_eigenvalues(size_t n, double *a, double *values, double *work);
 
 #endif

@@ -1,5 +1,6 @@
 #include "core/quadratic.h"
 
+#include "core/error.h"
 #include "core/matrix.h"
 
 #include <math.h>
@@ -30,8 +31,8 @@ static const double singular = 1e-14, apart = 1e-12;
 /* With H = sum lambda_i s_i s_i' the conditions of least |H|^2 are (s_i's_j)^2/2 lambda + c + g's_i
  * = y_i, sum lambda = 0, sum lambda s = 0. Steps s are in units of the farthest point used. Fills
  * (lambda, c, g) [n], n = m + d + 1; a [n x n] is scratch. */
-static bool solve_conditions(size_t d, size_t m, const double *s, const double *y, double *a,
-                             double *solution)
+static bayesopt_status solve_conditions(size_t d, size_t m, const double *s, const double *y,
+                                        double *a, double *solution, bool *ok)
 {
     size_t n = m + d + 1;
     memset(a, 0, n * n * sizeof *a);
@@ -49,7 +50,7 @@ static bool solve_conditions(size_t d, size_t m, const double *s, const double *
             a[i * n + m + 1 + j] = a[(m + 1 + j) * n + i] = s[i * d + j];
         solution[i] = y[i];
     }
-    return matrix_solve(n, a, solution, singular);
+    return matrix_solve(n, a, solution, singular, ok);
 }
 
 /* Points by their distance. */
@@ -63,8 +64,13 @@ static void sort(size_t d, size_t n, const double *x, const double *centre, stru
     qsort(order, n, sizeof *order, nearer);
 }
 
-bool quadratic_fit(struct quadratic *q, size_t d, size_t n, const double *x, const double *y,
-                   const double *centre)
+static bayesopt_status no_memory(size_t n)
+{
+    return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "no memory for a quadratic of %zu points", n);
+}
+
+bayesopt_status quadratic_fit(struct quadratic *q, size_t d, size_t n, const double *x,
+                              const double *y, const double *centre, bool *fitted)
 {
     size_t m = (d + 1) * (d + 2) / 2;
     m = m < MOST_POINTS ? m : MOST_POINTS;
@@ -74,7 +80,8 @@ bool quadratic_fit(struct quadratic *q, size_t d, size_t n, const double *x, con
     q->centre = malloc((2 * d + d * d) * sizeof(double));
     struct near *order = malloc((n ? n : 1) * sizeof *order);
     double *s = malloc((m * (d + 1) + unknowns * (unknowns + 1)) * sizeof *s), unit = 0;
-    bool ok = q->centre && order && s && n > d;
+    bayesopt_status status = q->centre && order && s ? BAYESOPT_OK : no_memory(n);
+    bool ok = !status && n > d;
     if (ok) {
         q->gradient = q->centre + d;
         q->hessian = q->gradient + d;
@@ -88,7 +95,8 @@ bool quadratic_fit(struct quadratic *q, size_t d, size_t n, const double *x, con
             s[i * d + j] = (x[order[i].row * d + j] - centre[j]) / unit;
         values[i] = y[order[i].row];
     }
-    ok = ok && solve_conditions(d, m, s, values, solution + unknowns, solution);
+    if (ok)
+        status = solve_conditions(d, m, s, values, solution + unknowns, solution, &ok);
     if (ok) {
         memcpy(q->centre, centre, d * sizeof *centre);
         memset(q->hessian, 0, d * d * sizeof *q->hessian);
@@ -107,26 +115,30 @@ bool quadratic_fit(struct quadratic *q, size_t d, size_t n, const double *x, con
     }
     free(order);
     free(s);
-    return ok;
+    *fitted = ok;
+    return status;
 }
 
-bool quadratic_foretells(size_t d, size_t n, const double *x, const double *y, const double *centre,
-                         double *reach)
+bayesopt_status quadratic_foretells(size_t d, size_t n, const double *x, const double *y,
+                                    const double *centre, double *reach, bool *foretells)
 {
+    *foretells = false;
     size_t m = (d + 1) * (d + 2) / 2, others = d + 1;
     if (m > MOST_POINTS || n < m + others)
-        return false;
+        return BAYESOPT_OK;
     struct quadratic q = {0};
     struct near *order = malloc(n * sizeof *order);
     double *near_x = malloc(m * (d + 1) * sizeof *near_x), mean = 0, spread = 0, square = 0;
-    bool ok = order && near_x;
+    bayesopt_status status = order && near_x ? BAYESOPT_OK : no_memory(n);
+    bool ok = !status;
     if (ok)
         sort(d, n, x, centre, order);
     for (size_t i = 0; i < m && ok; i++) {
         memcpy(near_x + i * d, x + order[i].row * d, d * sizeof *near_x);
         near_x[m * d + i] = y[order[i].row];
     }
-    ok = ok && quadratic_fit(&q, d, m, near_x, near_x + m * d, centre);
+    if (ok)
+        status = quadratic_fit(&q, d, m, near_x, near_x + m * d, centre, &ok);
     for (size_t i = m; i < m + others && ok; i++)
         mean += y[order[i].row] / (double)others;
     for (size_t i = m; i < m + others && ok; i++) {
@@ -140,7 +152,8 @@ bool quadratic_foretells(size_t d, size_t n, const double *x, const double *y, c
     quadratic_free(&q);
     free(near_x);
     free(order);
-    return ok && square < share_foretold * share_foretold * spread;
+    *foretells = ok && square < share_foretold * share_foretold * spread;
+    return status;
 }
 
 void quadratic_free(struct quadratic *q)

@@ -4,6 +4,8 @@
 #ifndef BAYESOPT_QUADRATIC_H
 #define BAYESOPT_QUADRATIC_H
 
+#include <bayesopt/status.h>
+
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -15,15 +17,17 @@ struct quadratic {
 };
 
 /* From n points x [n x d] with values y, n > d. At most (d + 1)(d + 2)/2 points and at most 300 of
- * them are used, the nearest first by the largest coordinate difference. false: out of memory, or
- * the points do not determine a gradient. Free with quadratic_free() in any case. */
-bool quadratic_fit(struct quadratic *q, size_t d, size_t n, const double *x, const double *y,
-                   const double *centre);
-/* Whether the quadratic through the nearest points, as many as it has coefficients, foretells the
- * next d + 1, to 1 % of how those differ; *reach: how far away they are, by the largest coordinate
- * difference. False also when there are too few or memory is short. */
-bool quadratic_foretells(size_t d, size_t n, const double *x, const double *y, const double *centre,
-                         double *reach);
+ * them are used, the nearest first by the largest coordinate difference. *ok false: the points do
+ * not determine a gradient. Free with quadratic_free() in any case.
+ * @return BAYESOPT_ERROR_MEMORY */
+bayesopt_status quadratic_fit(struct quadratic *q, size_t d, size_t n, const double *x,
+                              const double *y, const double *centre, bool *ok);
+/* *ok: whether the quadratic through the nearest points, as many as it has coefficients, foretells
+ * the next d + 1, to 1 % of how those differ; *reach: how far away they are, by the largest
+ * coordinate difference. False also when there are too few.
+ * @return BAYESOPT_ERROR_MEMORY */
+bayesopt_status quadratic_foretells(size_t d, size_t n, const double *x, const double *y,
+                                    const double *centre, double *reach, bool *ok);
 void quadratic_free(struct quadratic *q);
 /* Value at x; gradient [d] filled unless NULL. */
 double quadratic_value(const struct quadratic *q, const double *x, double *gradient);

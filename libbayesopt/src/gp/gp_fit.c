@@ -10,33 +10,54 @@
 
 static const double log_2pi = 1.8378770664093454836;
 
-/* Leave-one-out log predictive density, Rasmussen and Williams eq. 5.10. */
-static double loo_density(bayesopt_gp *gp)
+static bayesopt_status no_memory(void)
 {
-    double *mean = malloc(2 * gp->n * sizeof *mean), sum = 0;
-    if (!mean || !gp_condition(gp) || bayesopt_gp_loo(gp, mean, mean + gp->n)) {
-        free(mean);
-        return -INFINITY;
+    return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "gp: out of memory");
+}
+
+/* Leave-one-out means [n] and variances [n], to be freed; *mean NULL where there are none. */
+static bayesopt_status predict_left_out(bayesopt_gp *gp, double **mean)
+{
+    *mean = malloc(2 * gp->n * sizeof **mean);
+    if (!*mean)
+        return no_memory();
+    bayesopt_status status =
+        gp_condition(gp) ? bayesopt_gp_loo(gp, *mean, *mean + gp->n) : BAYESOPT_ERROR_NUMERIC;
+    if (status) {
+        free(*mean);
+        *mean = NULL;
     }
-    for (size_t i = 0; i < gp->n; i++) {
+    return status == BAYESOPT_ERROR_MEMORY ? status : BAYESOPT_OK;
+}
+
+/* Leave-one-out log predictive density, Rasmussen and Williams eq. 5.10; -INFINITY: none. */
+static bayesopt_status loo_density(bayesopt_gp *gp, double *density)
+{
+    double *mean, sum = 0;
+    bayesopt_status status = predict_left_out(gp, &mean);
+    for (size_t i = 0; mean && i < gp->n; i++) {
         double var = mean[gp->n + i], error = gp->t[i] - mean[i];
         sum -= 0.5 * (log(var) + error * error / var + log_2pi);
     }
+    *density = mean ? sum : -INFINITY;
     free(mean);
-    return sum;
+    return status;
 }
 
 /* Mean square of the leave-one-out errors in normal scores of the ranks, a scale that does not
- * depend on the transform in use. */
-static double loo_score_error(bayesopt_gp *gp)
+ * depend on the transform in use; INFINITY: none. */
+static bayesopt_status loo_score_error(bayesopt_gp *gp, double *error_square)
 {
     struct transform ranks;
-    double *mean = malloc(2 * gp->n * sizeof *mean), square = 0;
+    double *mean, square = 0;
+    *error_square = INFINITY;
+    bayesopt_status status = predict_left_out(gp, &mean);
+    if (!mean)
+        return status;
     transform_reset(&ranks);
-    if (!mean || !gp_condition(gp) || bayesopt_gp_loo(gp, mean, mean + gp->n) ||
-        !transform_estimate(&ranks, BAYESOPT_TRANSFORM_RANK, gp->n, gp->y)) {
+    if (!transform_estimate(&ranks, BAYESOPT_TRANSFORM_RANK, gp->n, gp->y)) {
         free(mean);
-        return INFINITY;
+        return no_memory();
     }
     double low = INFINITY, high = -INFINITY;
     for (size_t i = 0; i < gp->n; i++) {
@@ -51,7 +72,9 @@ static double loo_score_error(bayesopt_gp *gp)
     }
     transform_free(&ranks);
     free(mean);
-    return isnan(square) ? INFINITY : square;
+    if (!isnan(square))
+        *error_square = square;
+    return BAYESOPT_OK;
 }
 
 static size_t list_models(const bayesopt_gp *gp, struct gp_model *models)
@@ -75,7 +98,7 @@ static size_t list_models(const bayesopt_gp *gp, struct gp_model *models)
 static bayesopt_status set_transform(bayesopt_gp *gp, bayesopt_transform kind)
 {
     if (!transform_estimate(&gp->transform, kind, gp->n, gp->y))
-        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "gp: out of memory");
+        return no_memory();
     for (size_t i = 0; i < gp->n; i++)
         gp->t[i] = transform_apply(&gp->transform, gp->y[i]);
     return BAYESOPT_OK;
@@ -124,8 +147,7 @@ static bayesopt_status try_transform(bayesopt_gp *gp, bayesopt_transform kind,
     if (status)
         return status;
     *value += log_jacobian(gp);
-    *square = loo_score_error(gp);
-    return BAYESOPT_OK;
+    return loo_score_error(gp, square);
 }
 
 /* The transform under which the data are most likely, if it gains more than 2 over leaving them
@@ -205,10 +227,10 @@ static bayesopt_status fit_model(bayesopt_gp *gp, struct gp_model model,
     if (!status && isfinite(fit.best_value)) {
         *score = fit.best_value;
         if (compare && gp->options.choice == BAYESOPT_CHOICE_POSTERIOR)
-            *score = gp_search_evidence(&fit);
+            status = gp_search_evidence(&fit, score);
         gp_search_adopt(&fit);
-        if (compare && gp->options.choice == BAYESOPT_CHOICE_LOO)
-            *score = loo_density(gp);
+        if (!status && compare && gp->options.choice == BAYESOPT_CHOICE_LOO)
+            status = loo_density(gp, score);
     }
     gp->evaluations += fit.evaluations;
     gp_search_free(&fit);
@@ -234,7 +256,7 @@ static bayesopt_status compare_models(bayesopt_gp *gp, const size_t *isotropic_g
     struct bayesopt_gp start = *gp, best = *gp;
     double *scales = malloc(2 * d * sizeof *scales);
     if (!scales)
-        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "gp: out of memory");
+        return no_memory();
     memcpy(scales, gp->lengthscale, d * sizeof *scales);
     memcpy(scales + d, gp->lengthscale, d * sizeof *scales);
     bayesopt_status status = BAYESOPT_OK;
@@ -278,7 +300,7 @@ static bayesopt_status fit_cold(bayesopt_gp *gp, const size_t *isotropic_groups)
     size_t d = gp->d;
     double *x = malloc(MOST_COLD * (d + 2) * sizeof *x);
     if (!x)
-        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "gp: out of memory");
+        return no_memory();
     double *y = x + MOST_COLD * d, *variance = y + MOST_COLD;
     for (size_t k = 0; k < MOST_COLD; k++) {
         size_t i = k * gp->n / MOST_COLD;
@@ -327,7 +349,7 @@ bayesopt_status bayesopt_gp_fit(bayesopt_gp *gp)
     THREADS((int)gp->options.threads);
     size_t *isotropic_groups = calloc(gp->d, sizeof *isotropic_groups);
     if (!isotropic_groups)
-        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "gp: out of memory");
+        return no_memory();
     if (gp->options.scales != BAYESOPT_SCALES_TIED)
         for (size_t j = 0; j < gp->d; j++)
             gp->group[j] = j;

@@ -251,13 +251,13 @@ void gp_search_adopt(struct gp_search *fit)
 /* Laplace's approximation of the log evidence: log posterior at the mode + k/2 log 2 pi - log det
  * H/2, H by forward differences of the gradient. It charges a model for its freedom, which the
  * density at the mode alone does not. */
-double gp_search_evidence(struct gp_search *fit)
+bayesopt_status gp_search_evidence(struct gp_search *fit, double *evidence)
 {
     size_t k = fit->parameters;
     double value, best = fit->best_value, logs = 0;
-    double *h = malloc((k * k + 3 * k) * sizeof *h);
+    double *h = malloc((k * k + 6 * k) * sizeof *h);
     if (!h)
-        return best;
+        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "no memory to compare models");
     double *at = h + k * k, *moved = at + k, *theta = moved + k;
     const double step = 1e-3;
     memcpy(theta, fit->best, k * sizeof *theta);
@@ -273,9 +273,10 @@ double gp_search_evidence(struct gp_search *fit)
     for (size_t i = 0; i < k && ok; i++)
         for (size_t j = 0; j < i; j++)
             h[i * k + j] = h[j * k + i] = 0.5 * (h[i * k + j] + h[j * k + i]);
-    ok = ok && matrix_eigenvalues(k, h, at);
+    ok = ok && matrix_eigenvalues(k, h, at, theta + k);
     for (size_t i = 0; i < k && ok; i++)
         logs += log(fmax(at[i], least_curvature));
     free(h);
-    return ok ? best + 0.5 * ((double)k * log_2pi - logs) : best;
+    *evidence = ok ? best + 0.5 * ((double)k * log_2pi - logs) : best;
+    return BAYESOPT_OK;
 }

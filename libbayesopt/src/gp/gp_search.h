@@ -49,7 +49,8 @@ void gp_search_start(const struct gp_search *fit, size_t s, double *theta);
 bayesopt_status gp_search_climb(struct gp_search *fit, const double *start, size_t evaluations);
 /* The regression takes the best point. */
 void gp_search_adopt(struct gp_search *fit);
-/* Laplace's approximation of the log evidence at the best point. */
-double gp_search_evidence(struct gp_search *fit);
+/* Laplace's approximation of the log evidence at the best point; where the posterior has none, its
+ * density there. */
+bayesopt_status gp_search_evidence(struct gp_search *fit, double *evidence);
 
 #endif

@@ -259,6 +259,11 @@ static bayesopt_status propose_anywhere(struct bayesopt *bo, uint64_t id, double
                                  bo->region.m);
 }
 
+static bayesopt_status no_memory(const struct bayesopt *bo)
+{
+    return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "no memory for %zu points", bo->n_points);
+}
+
 /* Values that count, and their points. NULL: out of memory. */
 static double *list_values(const struct bayesopt *bo, size_t *n, double **y)
 {
@@ -277,15 +282,16 @@ static double *list_values(const struct bayesopt *bo, size_t *n, double **y)
 
 /* A quadratic through the values around the centre; none if there are too few or they lie in a
  * plane. */
-static bool fit_quadratic(const struct bayesopt *bo, const double *centre, struct quadratic *q)
+static bayesopt_status fit_quadratic(const struct bayesopt *bo, const double *centre,
+                                     struct quadratic *q, bool *fitted)
 {
     double *y;
     size_t n;
     double *x = list_values(bo, &n, &y);
     *q = (struct quadratic){0};
-    bool ok = x && quadratic_fit(q, bo->d, n, x, y, centre);
+    bayesopt_status status = x ? quadratic_fit(q, bo->d, n, x, y, centre, fitted) : no_memory(bo);
     free(x);
-    return ok;
+    return status;
 }
 
 /* Whether the points near the centre are as many as a quadratic has coefficients. */
@@ -302,24 +308,33 @@ static bool surrounded(const struct bayesopt *bo, const struct trust *t)
  * quadratic takes part when there are enough points around, or when it foretells those farther
  * away. The regression knows more of the function; close to a minimum of a smooth one the quadratic
  * is the better conditioned of the two. */
-static bayesopt_phase polishing_phase(const struct bayesopt *bo, struct trust *t)
+static bayesopt_status polishing_phase(const struct bayesopt *bo, struct trust *t,
+                                       bayesopt_phase *phase)
 {
     double reach = 0;
+    bool proven = false;
+    *phase = BAYESOPT_PHASE_POLISH;
     if (bo->n_discrete || bo->options.noise != BAYESOPT_NOISE_DETERMINISTIC)
-        return BAYESOPT_PHASE_POLISH;
+        return BAYESOPT_OK;
     double *y;
     size_t n;
     double *x = list_values(bo, &n, &y);
-    bool proven = x && quadratic_foretells(bo->d, n, x, y, bo->points[t->centre].u, &reach);
+    bayesopt_status status =
+        x ? quadratic_foretells(bo->d, n, x, y, bo->points[t->centre].u, &reach, &proven)
+          : no_memory(bo);
     free(x);
+    if (status)
+        return status;
     if (proven)
         t->radius = fmax(t->radius, fmin(reach, radius_most));
     if (!proven && !surrounded(bo, t))
-        return BAYESOPT_PHASE_POLISH;
+        return BAYESOPT_OK;
     bool descent = t->descent_credit > t->polish_credit;
     if (t->polished % 4 == 3)
         descent = !descent;
-    return descent ? BAYESOPT_PHASE_DESCENT : BAYESOPT_PHASE_POLISH;
+    if (descent)
+        *phase = BAYESOPT_PHASE_DESCENT;
+    return BAYESOPT_OK;
 }
 
 /* Pending points of a kind of step, or of two. */
@@ -337,23 +352,24 @@ static size_t count_pending(const struct bayesopt *bo, bayesopt_phase phase, bay
  * turns where improvement is expected (which also measures where little is known) and where a model
  * has its minimum (which on smooth objectives is a Newton-like step). Once the bottom of a basin is
  * reached, steps that look elsewhere take the place of most of the polishing. */
-static bayesopt_phase next_phase(const struct bayesopt *bo, uint64_t id, struct trust *t)
+static bayesopt_status next_phase(const struct bayesopt *bo, uint64_t id, struct trust *t,
+                                  bayesopt_phase *phase)
 {
     bayesopt_strategy strategy = bo->options.strategy;
+    *phase = BAYESOPT_PHASE_GLOBAL;
     /* With several objectives there is no one best point to stay near. */
     if (t->centre == SIZE_MAX || strategy == BAYESOPT_STRATEGY_GLOBAL ||
         bo->options.n_objectives > 1)
-        return BAYESOPT_PHASE_GLOBAL;
-    if (strategy == BAYESOPT_STRATEGY_LOCAL)
-        return BAYESOPT_PHASE_LOCAL;
+        return BAYESOPT_OK;
     bool global =
         t->settled ? id % settled_period && id % polish_period == 0 : id % global_period == 0;
-    if (global)
-        return BAYESOPT_PHASE_GLOBAL;
+    if (global && strategy != BAYESOPT_STRATEGY_LOCAL)
+        return BAYESOPT_OK;
+    *phase = BAYESOPT_PHASE_LOCAL;
     bool polishing =
-        bo->options.polish && id % polish_period == 0 &&
+        strategy != BAYESOPT_STRATEGY_LOCAL && bo->options.polish && id % polish_period == 0 &&
         count_pending(bo, BAYESOPT_PHASE_POLISH, BAYESOPT_PHASE_DESCENT) < BATCH_POLISHING;
-    return polishing ? polishing_phase(bo, t) : BAYESOPT_PHASE_LOCAL;
+    return polishing ? polishing_phase(bo, t, phase) : BAYESOPT_OK;
 }
 
 /* The level that removes more of the variance at u for its cost, as long as the proposals at the
@@ -450,11 +466,14 @@ bayesopt_status strategy_propose(struct bayesopt *bo, uint64_t id, double *u, ba
         return status;
     struct trust trust = trust_replay(bo);
     struct search search = {.id = id, .candidates = 1024, .starts = 6, .quadratic = &quadratic};
-    *phase = next_phase(bo, id, &trust);
-    if (*phase == BAYESOPT_PHASE_DESCENT &&
-        !fit_quadratic(bo, bo->points[trust.centre].u, &quadratic))
-        *phase = BAYESOPT_PHASE_POLISH;
-    status = take_step(bo, &search, &trust, *phase, u, &value);
+    status = next_phase(bo, id, &trust, phase);
+    bool fitted = false;
+    if (!status && *phase == BAYESOPT_PHASE_DESCENT) {
+        status = fit_quadratic(bo, bo->points[trust.centre].u, &quadratic, &fitted);
+        *phase = fitted ? *phase : BAYESOPT_PHASE_POLISH;
+    }
+    if (!status)
+        status = take_step(bo, &search, &trust, *phase, u, &value);
     bool polishing = *phase == BAYESOPT_PHASE_POLISH || *phase == BAYESOPT_PHASE_DESCENT;
     if (!status && polishing && !isfinite(value)) {
         *phase = BAYESOPT_PHASE_LOCAL;

@@ -109,9 +109,11 @@ igabem_status free_waves_fit(double k0, double stern, double length, size_t n, c
     }
     lapack_int rank, rows = (lapack_int)n;
     igabem_status status = fill(waves, n, x, y, matrix);
-    if (!status && LAPACKE_dgelss(LAPACK_COL_MAJOR, rows, COLUMNS, 1, matrix, rows, right, rows,
-                                  singular, smallest, &rank) != 0)
-        status = igabem_fail(IGABEM_ERROR_NUMERIC, "the free waves have no fit");
+    lapack_int info = status ? 0
+                             : LAPACKE_dgelss(LAPACK_COL_MAJOR, rows, COLUMNS, 1, matrix, rows,
+                                              right, rows, singular, smallest, &rank);
+    if (info != 0)
+        status = igabem_fail_lapack("fit of the free waves", info);
     for (int m = 0; m < FREE_WAVES_TERMS && !status; m++)
         waves->c[m] = right[m] + I * right[FREE_WAVES_TERMS + m];
     if (!status)

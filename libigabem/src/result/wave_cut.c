@@ -124,9 +124,11 @@ static igabem_status fit_tail(const igabem_solution *solution, struct cut *cut)
         }
     }
     igabem_status status = elevate(solution, cut, TAIL_POINTS, xi, zeta);
-    if (!status && LAPACKE_dgels(LAPACK_ROW_MAJOR, 'N', TAIL_POINTS, COLUMNS, 1, matrix, COLUMNS,
-                                 zeta, 1) != 0)
-        status = igabem_fail(IGABEM_ERROR_NUMERIC, "the tail of the wave cut has no fit");
+    lapack_int info = status ? 0
+                             : LAPACKE_dgels(LAPACK_ROW_MAJOR, 'N', TAIL_POINTS, COLUMNS, 1, matrix,
+                                             COLUMNS, zeta, 1);
+    if (info != 0)
+        status = igabem_fail_lapack("fit to the tail of the wave cut", info);
     for (int m = 0; m < TAIL_TERMS && !status; m++)
         cut->tail[m] = zeta[2 * m] + I * zeta[2 * m + 1];
     free(matrix);

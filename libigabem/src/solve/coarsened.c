@@ -47,8 +47,12 @@ static igabem_status solve(const struct matrix *matrix, const igabem_solution *s
     igabem_status status = sum_up(matrix, coarse, normal);
     if (status != IGABEM_OK)
         return status;
-    /* Not definite: the estimate is not known, which is no reason to fail. */
-    if (LAPACKE_dposv(LAPACK_ROW_MAJOR, 'U', order, 1, normal->square, order, normal->right, 1))
+    /* Row by row the upper triangle is LAPACK's lower one. */
+    lapack_int info =
+        LAPACKE_dposv(LAPACK_COL_MAJOR, 'L', order, 1, normal->square, order, normal->right, order);
+    if (info < 0)
+        return igabem_fail_lapack("density on half the knots", info);
+    if (info > 0) /* not definite: the estimate is not known, which is no reason to fail */
         return IGABEM_OK;
     *sigma = malloc(matrix->n * sizeof **sigma);
     if (!*sigma)

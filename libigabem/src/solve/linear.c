@@ -26,14 +26,20 @@ static igabem_status check_size(size_t n)
     return igabem_fail(IGABEM_ERROR_ARGUMENT, "%zu unknowns are too many for LAPACK", n);
 }
 
-/* LAPACKE_dlange() returns its info, a negative number, where it has no memory. */
-static igabem_status check_norm(double norm)
+/* Of the rows, 1-norm; LAPACK's inf-norm, to which row-major storage is the transpose. Its driver
+ * says 0 where it has no memory, so the room for its sums is ours. */
+static igabem_status find_norm(const struct matrix *matrix, double *norm)
 {
-    if (norm < 0.0)
-        return igabem_fail_lapack("norm of the influence matrix", (int)norm);
-    if (!isfinite(norm))
-        return igabem_fail(IGABEM_ERROR_NUMERIC, "the influence matrix is not finite");
-    return IGABEM_OK;
+    lapack_int order = (lapack_int)matrix->n;
+    double *sums = malloc(matrix->n * sizeof *sums);
+    if (!sums)
+        return igabem_fail(IGABEM_ERROR_MEMORY, "no memory to solve");
+    *norm = LAPACKE_dlange_work(LAPACK_COL_MAJOR, 'I', order, order, matrix->rows,
+                                (lapack_int)matrix->stride, sums);
+    free(sums);
+    return isfinite(*norm)
+               ? IGABEM_OK
+               : igabem_fail(IGABEM_ERROR_NUMERIC, "the influence matrix is not finite");
 }
 
 /* LU by panels of columns, right-looking (Golub and Van Loan, Matrix Computations, 3.2.11), so that
@@ -71,9 +77,8 @@ igabem_status linear_lu_factor(const struct matrix *matrix, int *pivots, double 
     if (status != IGABEM_OK)
         return status;
     lapack_int order = (lapack_int)matrix->n, stride = (lapack_int)matrix->stride;
-    /* Row-major storage is the transpose of LAPACK's, whose inf-norm is our 1-norm. */
-    double *a = matrix->rows, norm = LAPACKE_dlange(LAPACK_COL_MAJOR, 'I', order, order, a, stride);
-    status = check_norm(norm);
+    double *a = matrix->rows, norm = 0.0;
+    status = find_norm(matrix, &norm);
     if (status != IGABEM_OK)
         return status;
     double reciprocal = 0.0;
@@ -333,13 +338,11 @@ igabem_status iteration_condition(const struct iteration *iteration, double *con
     const struct matrix *matrix = &iteration->matrix;
     size_t n = matrix->n;
     lapack_int order = (lapack_int)n, kase = 0, save[3];
-    double inverse = 0.0;
-    double norm = LAPACKE_dlange(LAPACK_COL_MAJOR, 'I', order, order, matrix->rows,
-                                 (lapack_int)matrix->stride);
+    double inverse = 0.0, norm = 0.0;
     double *vector = malloc(3 * n * sizeof *vector), *x = vector + n, *right = x + n;
     lapack_int *sign = malloc(n * sizeof *sign);
-    igabem_status status =
-        vector && sign ? check_norm(norm) : igabem_fail(IGABEM_ERROR_MEMORY, "no memory to solve");
+    igabem_status status = vector && sign ? find_norm(matrix, &norm)
+                                          : igabem_fail(IGABEM_ERROR_MEMORY, "no memory to solve");
     for (int k = 0; k < ESTIMATES && status == IGABEM_OK; k++) {
         lapack_int info = LAPACKE_dlacn2_work(order, vector, x, sign, &inverse, &kase, save);
         if (info)

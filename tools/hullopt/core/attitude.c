@@ -20,10 +20,11 @@ static bool float_freely(const struct problem *problem, const struct design *des
     nurbs_hull_options_init(&placement);
     placement.simplify = problem->config->tolerance;
     placement.length = nurbs_hull_length(design->hull);
-    bool ok = igabem_equilibrium_find(nurbs_hull_full(design->hull), &placement, &options, &found,
-                                      &hull) == IGABEM_OK &&
-              igabem_hull_from(hull, &a->placed) == IGABEM_OK;
-    if (ok) {
+    igabem_status status =
+        igabem_equilibrium_find(nurbs_hull_full(design->hull), &placement, &options, &found, &hull);
+    if (status == IGABEM_OK)
+        status = igabem_hull_from(hull, &a->placed);
+    if (status == IGABEM_OK) {
         a->body = a->placed;
         a->area = nurbs_hull_hydrostatics(hull)->wetted_area /
                   nurbs_hull_hydrostatics(design->hull)->wetted_area;
@@ -31,7 +32,7 @@ static bool float_freely(const struct problem *problem, const struct design *des
         a->trim = found.trim * (180 / PI);
     }
     nurbs_hull_free(hull);
-    return ok || core_fail("free to trim: %s", igabem_last_error());
+    return core_ok(status, "free to trim: %s", igabem_last_error());
 }
 
 bool attitude_find(const struct problem *problem, const struct design *design, double froude,

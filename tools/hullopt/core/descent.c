@@ -48,6 +48,10 @@ static bayesopt_descent_answer fine(void *user_data, const double *u,
         d->ok = false;
         return BAYESOPT_DESCENT_STOP;
     }
+    if (e.no_memory) { /* of a design on record: others are never told */
+        d->ok = core_fail("%s", e.reason);
+        return BAYESOPT_DESCENT_STOP;
+    }
     d->valued += !parent;
     if (e.failed)
         return BAYESOPT_DESCENT_FAILED;

@@ -88,11 +88,10 @@ static bool solve_remotely(struct problem *problem, struct evaluation *e)
 
 static bool compute_forces(const igabem_solution *solution, igabem_forces *forces)
 {
-    if (igabem_forces_compute(solution, forces) != IGABEM_OK)
-        return core_fail("forces: %s", igabem_last_error());
-    return (forces->cw > 0 && isfinite(forces->cw)) ||
-           core_fail("forces: C_w is %g at Fr %g, expected a positive number", forces->cw,
-                     igabem_solution_options(solution)->froude);
+    return core_ok(igabem_forces_compute(solution, forces), "forces: %s", igabem_last_error()) &&
+           ((forces->cw > 0 && isfinite(forces->cw)) ||
+            core_fail("forces: C_w is %g at Fr %g, expected a positive number", forces->cw,
+                      igabem_solution_options(solution)->froude));
 }
 
 /* area: of the wetted surface over that at rest, which C_w is told on. */
@@ -165,8 +164,8 @@ static bool solve_afloat(const struct problem *problem, const struct design *des
         return false;
     for (size_t k = 0; k < n; k++)
         area[k] = attitude->area;
-    return igabem_solve_many(attitude->body, n, settings, solutions) == IGABEM_OK ||
-           core_fail("solve: %s", igabem_last_error());
+    return core_ok(igabem_solve_many(attitude->body, n, settings, solutions), "solve: %s",
+                   igabem_last_error());
 }
 
 static bool solve(const struct problem *problem, const struct design *design, struct viewer viewer,
@@ -211,6 +210,7 @@ static void finish(struct problem *problem, const struct design *design, const d
     e->geometry_seconds = built - start;
     e->solve_seconds = cli_seconds() - built;
     e->failed = !ok;
+    e->no_memory = core_lacked_memory() && !ok;
     if (!ok)
         snprintf(e->reason, sizeof e->reason, "%s", core_sentence());
 }

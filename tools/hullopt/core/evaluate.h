@@ -19,6 +19,7 @@ struct evaluation {
     const char *phase; /* "parent", "initial", "global", ... */
     const double *u;   /* latent point, borrowed */
     bool failed;
+    bool no_memory;                   /* failed for want of it: nothing is known of the design */
     char reason[REASON_SIZE];         /* of the failure, "skin: ..."; else "" */
     double objective;                 /* what the search lowers: objective_of() */
     double value;                     /* by objective.command */

@@ -109,15 +109,18 @@ static bool fill_design(const bayesopt_descent_problem *p, bayesopt_descent_mode
                         double *cube, double *u)
 {
     size_t made = 0;
-    for (size_t i = 0; i < DRAWS * n && made < n; i++) {
+    bayesopt_status status = BAYESOPT_OK;
+    for (size_t i = 0; i < DRAWS * n && made < n && status != BAYESOPT_ERROR_MEMORY; i++) {
         double *centre = cube + i * p->d, ratio;
         for (size_t k = 0; k < p->d; k++)
             centre[k] = p->lower[k] + centre[k] * (p->upper[k] - p->lower[k]);
         double radius = i ? DESIGN_RADIUS : INFINITY;
-        if (bayesopt_descent_model_minimise(model, NULL, centre, radius, DESIGN_MARGIN,
-                                            u + made * p->d, &ratio, NULL) == BAYESOPT_OK)
-            made++;
+        status = bayesopt_descent_model_minimise(model, NULL, centre, radius, DESIGN_MARGIN,
+                                                 u + made * p->d, &ratio, NULL);
+        made += status == BAYESOPT_OK;
     }
+    if (status == BAYESOPT_ERROR_MEMORY)
+        return core_no_memory();
     return made == n || core_fail("only %zu of %zu initial designs keep the known limits", made, n);
 }
 

@@ -96,8 +96,9 @@ static bool measure_fairness(const struct view *v, double value[PARTICULARS][2])
     for (int p = PARTICULAR_WATERLINES; p < PARTICULAR_STATIONS && !wanted; p++)
         wanted = !isnan(c->particular[p][0]);
     if (wanted &&
-        galv_grid_fairness(v->sections, v->girth, v->xyz, &waterlines, &sections) != GALV_OK)
-        return core_fail("grid: %s", galv_last_error());
+        !core_ok(galv_grid_fairness(v->sections, v->girth, v->xyz, &waterlines, &sections),
+                 "grid: %s", galv_last_error()))
+        return false;
     for (int end = 0; end < 2; end++) {
         value[PARTICULAR_WATERLINES][end] = waterlines.turning;
         value[PARTICULAR_RADIUS][end] = waterlines.radius;
@@ -114,8 +115,9 @@ static bool measure(const struct view *v, double value[PARTICULARS][2])
 {
     galv_particulars g;
     double length = problem_length(v->problem);
-    if (galv_grid_particulars(v->sections, v->girth, v->xyz, &g) != GALV_OK)
-        return core_fail("grid: %s", galv_last_error());
+    if (!core_ok(galv_grid_particulars(v->sections, v->girth, v->xyz, &g), "grid: %s",
+                 galv_last_error()))
+        return false;
     double km = g.draft + g.vcb + g.waterplane_inertia / g.volume;
     const double single[PARTICULAR_WATERLINES] = {
         g.wetted_area,

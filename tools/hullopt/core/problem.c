@@ -43,8 +43,8 @@ static bool build_hull(struct problem *problem, const double *points, nurbs_hull
 {
     size_t n = nurbs_grid_rows(problem->grid) * nurbs_grid_columns(problem->grid);
     memcpy(nurbs_grid_edit(problem->moved), points, 3 * n * sizeof *points);
-    return nurbs_hull_rebuild(problem->source, problem->moved, hull) == NURBS_OK ||
-           core_fail("%s", nurbs_last_error());
+    return core_ok(nurbs_hull_rebuild(problem->source, problem->moved, hull), "%s",
+                   nurbs_last_error());
 }
 
 static bool build(struct problem *problem, const double *points, struct design *design)
@@ -52,10 +52,10 @@ static bool build(struct problem *problem, const double *points, struct design *
     *design = (struct design){0};
     if (!build_hull(problem, points, &design->hull))
         return false;
-    if (igabem_hull_from(design->hull, &design->body) == IGABEM_OK)
+    if (core_ok(igabem_hull_from(design->hull, &design->body), "hull: %s", igabem_last_error()))
         return true;
     design_free(design);
-    return core_fail("hull: %s", igabem_last_error());
+    return false;
 }
 
 bool problem_build_points(struct problem *problem, const double *points, struct design *design)
@@ -141,8 +141,7 @@ static bool displace(struct problem *problem, const double *u)
     problem->made[0] = '\0';
     if (config_by_command(problem->config))
         return problem_make_points(problem, u, points);
-    return galv_displace(problem->model, u, points) == GALV_OK ||
-           core_fail("grid: %s", galv_last_error());
+    return core_ok(galv_displace(problem->model, u, points), "grid: %s", galv_last_error());
 }
 
 bool problem_build(struct problem *problem, const double *u, struct design *design)
@@ -179,8 +178,8 @@ static bool sample_grid(struct problem *problem)
             nurbs_patches_parameters(full, 0, axis, &kept) == 0)
             return core_fail("%s: grid.%s is missing, and %s keeps no design grid of its own",
                              config->path, axis ? "girth" : "sections", config->hull);
-    return nurbs_hull_design_grid(problem->source, n[0], n[1], &problem->grid) == NURBS_OK ||
-           core_fail("%s: %s", config->hull, nurbs_last_error());
+    return core_ok(nurbs_hull_design_grid(problem->source, n[0], n[1], &problem->grid), "%s: %s",
+                   config->hull, nurbs_last_error());
 }
 
 static bool build_parent(struct problem *problem)

@@ -30,8 +30,9 @@ static bool take_points(const struct descent *d, const igabem_solution *solution
 {
     igabem_pressure_sample *point;
     size_t n;
-    if (igabem_pressure_samples(solution, ALONG, AROUND, &n, &point) != IGABEM_OK)
-        return core_fail("forces: %s", igabem_last_error());
+    if (!core_ok(igabem_pressure_samples(solution, ALONG, AROUND, &n, &point), "forces: %s",
+                 igabem_last_error()))
+        return false;
     bool same = n == d->points;
     if (same)
         memcpy(s->state, point, n * sizeof *point);
@@ -45,8 +46,9 @@ static bool take_setting(const struct descent *d, size_t m, const igabem_solutio
                          bayesopt_descent_sample *s)
 {
     bool known = s->known && s->known->known[m];
-    if (!known && igabem_wave_residuals(solution, s->residual + m * RESIDUALS) != IGABEM_OK)
-        return core_fail("forces: %s", igabem_last_error());
+    if (!known && !core_ok(igabem_wave_residuals(solution, s->residual + m * RESIDUALS),
+                           "forces: %s", igabem_last_error()))
+        return false;
     return m || !d->points || (s->known && s->known->state_known) || take_points(d, solution, s);
 }
 
@@ -109,8 +111,9 @@ static bool solve_coarsely(struct descent *d, const struct design *design,
     igabem_solution *solution[SETTINGS_MOST];
     for (size_t i = 0; i < n; i++)
         setting[i] = d->coarse[number[i]];
-    if (igabem_solve_many(design->body, n, setting, solution) != IGABEM_OK)
-        return core_fail("solve: %s", igabem_last_error());
+    if (!core_ok(igabem_solve_many(design->body, n, setting, solution), "solve: %s",
+                 igabem_last_error()))
+        return false;
     bool ok = true;
     for (size_t i = 0; i < n; i++) {
         ok = ok && take_setting(d, number[i], solution[i], sample);
@@ -131,6 +134,16 @@ static bool goes_on(struct descent *d, const char *what)
     return d->ok;
 }
 
+/* A search never changes for want of memory: it ends. */
+static bayesopt_descent_answer answer(struct descent *d, bool valued)
+{
+    if (core_lacked_memory()) {
+        d->ok = false;
+        return BAYESOPT_DESCENT_STOP;
+    }
+    return valued ? BAYESOPT_DESCENT_VALUED : BAYESOPT_DESCENT_FAILED;
+}
+
 static bayesopt_descent_answer coarse(void *user_data, const double *u,
                                       bayesopt_descent_sample *sample)
 {
@@ -140,11 +153,9 @@ static bayesopt_descent_answer coarse(void *user_data, const double *u,
     snprintf(what, sizeof what, "derivatives, solve %zu", ++d->differentiated);
     if (!goes_on(d, what))
         return BAYESOPT_DESCENT_STOP;
-    if (!problem_build(d->base, u, &design))
-        return BAYESOPT_DESCENT_FAILED;
-    bool ok = solve_coarsely(d, &design, sample);
+    bool ok = problem_build(d->base, u, &design) && solve_coarsely(d, &design, sample);
     design_free(&design);
-    return ok ? BAYESOPT_DESCENT_VALUED : BAYESOPT_DESCENT_FAILED;
+    return answer(d, ok);
 }
 
 /* Of the residuals of setting m as take_surface() leaves them: the wetted area changes too. */
@@ -177,8 +188,7 @@ static bool take_tangents(struct descent *d, size_t m, bayesopt_descent_slopes *
     bool ok = (dr || core_no_memory()) &&
               slopes_setting(&d->slopes, m, parts, dr, darea,
                              points ? (igabem_pressure_sample *)out->state : NULL, &solution) &&
-              (igabem_wave_residuals(solution, r) == IGABEM_OK ||
-               core_fail("forces: %s", igabem_last_error()));
+              core_ok(igabem_wave_residuals(solution, r), "forces: %s", igabem_last_error());
     if (ok)
         weigh_slopes(d, m, dr, darea, r, out->residual + m * n * RESIDUALS);
     free(dr);
@@ -227,8 +237,10 @@ static bayesopt_descent_answer derivatives(void *user_data, const double *u,
     if (!ok)
         snprintf(why, sizeof why, "%s", core_sentence());
     slopes_close(&d->slopes);
-    tell_ways(d, out->known, ok ? NULL : why);
-    return open ? BAYESOPT_DESCENT_VALUED : BAYESOPT_DESCENT_FAILED;
+    bayesopt_descent_answer end = answer(d, open);
+    if (end != BAYESOPT_DESCENT_STOP)
+        tell_ways(d, out->known, ok ? NULL : why);
+    return end;
 }
 
 static int limit(void *user_data, size_t n, const double *u, double *value)

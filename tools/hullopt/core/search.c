@@ -157,6 +157,9 @@ static bool keep_points(struct search *s, const struct evaluation *e)
 /* Figures and value are told at once: a session that dies leaves a point that is asked again. */
 static bool settle(struct search *s, struct evaluation *e)
 {
+    if (e->no_memory)
+        return core_fail("%s: the design at hand is not on record, and --resume goes on with it",
+                         e->reason);
     if (e->failed)
         core_tell(s->watch, "design %zu failed: %s", s->done, e->reason);
     if (!tell(s, e) || !record_update_session(s->record))
@@ -202,10 +205,12 @@ static bool ask(struct search *s, double *u, struct evaluation *e, bool *more)
 static bool loop(struct search *s, double *u)
 {
     struct evaluation e;
-    for (bool more = true;;) {
+    for (bool more;;) {
         search_show(s, NULL);
-        if (!ask(s, u, &e, &more) || !more)
-            return !more;
+        if (!ask(s, u, &e, &more))
+            return false;
+        if (!more)
+            return true;
         if (!search_step(s, &e, NULL, NULL))
             return false;
     }

@@ -11,6 +11,11 @@ enum { SENTENCE_SIZE = 512 };
 /* Keeps the sentence for this thread and returns false. */
 __attribute__((format(printf, 1, 2))) bool core_fail(const char *format, ...);
 bool core_no_memory(void);
+/* Whether a call of a library went well, by the status that it returned; if not, as core_fail(). */
+__attribute__((format(printf, 2, 3))) bool core_ok(int status, const char *format, ...);
+/* Whether, since it was asked last, a failure was for want of memory, which says nothing of what
+ * was computed. */
+bool core_lacked_memory(void);
 /* Of the last failure; borrowed until the next. */
 const char *core_sentence(void);
 

@@ -106,8 +106,9 @@ static bool hold(struct slopes *s, const double *u)
     for (size_t m = 0; m < s->n; m++)
         if (s->has[m])
             setting[n++] = s->setting[m];
-    if (igabem_solve_many(s->design.body, n, setting, found) != IGABEM_OK)
-        return core_fail("solve: %s", igabem_last_error());
+    if (!core_ok(igabem_solve_many(s->design.body, n, setting, found), "solve: %s",
+                 igabem_last_error()))
+        return false;
     n = 0;
     for (size_t m = 0; m < s->n; m++)
         if (s->has[m])
@@ -159,11 +160,9 @@ static double try_step(struct slopes *s, double *u, size_t k, double step, size_
     nurbs_hull *hull;
     u[k] = keep + step;
     if (problem_build_hull(s->problem, u, &hull)) {
-        if (nurbs_hull_moves(s->design.hull, hull, move) == NURBS_OK)
+        if (core_ok(nurbs_hull_moves(s->design.hull, hull, move), "moves: %s", nurbs_last_error()))
             astray =
                 clean(n, nurbs_hull_light(s->design.hull), step, problem_length(s->problem), move);
-        else
-            core_fail("moves: %s", nurbs_last_error());
     }
     nurbs_hull_free(hull);
     u[k] = keep;
@@ -225,23 +224,26 @@ bool slopes_setting(const struct slopes *s, size_t m, const size_t parts[2], dou
 {
     igabem_tangent *tangent;
     *solution = s->held[0].solution[m];
-    bool ok =
-        igabem_tangent_create(s->design.body, *solution, galv_model_modes(s->problem->model),
-                              s->move, &tangent) == IGABEM_OK &&
-        igabem_tangent_residuals(tangent, dr) == IGABEM_OK &&
-        igabem_tangent_wetted_area(tangent, darea) == IGABEM_OK &&
-        (!dsample || igabem_tangent_samples(tangent, parts[0], parts[1], dsample) == IGABEM_OK);
+    igabem_status status = igabem_tangent_create(
+        s->design.body, *solution, galv_model_modes(s->problem->model), s->move, &tangent);
+    if (status == IGABEM_OK)
+        status = igabem_tangent_residuals(tangent, dr);
+    if (status == IGABEM_OK)
+        status = igabem_tangent_wetted_area(tangent, darea);
+    if (status == IGABEM_OK && dsample)
+        status = igabem_tangent_samples(tangent, parts[0], parts[1], dsample);
     igabem_tangent_free(tangent);
-    return ok || core_fail("tangents: %s", igabem_last_error());
+    return core_ok(status, "tangents: %s", igabem_last_error());
 }
 
 bool slopes_cw(const struct slopes *s, size_t m, double *dcw)
 {
     igabem_tangent *tangent;
-    bool ok = igabem_tangent_create(s->design.body, s->held[0].solution[m],
-                                    galv_model_modes(s->problem->model), s->move,
-                                    &tangent) == IGABEM_OK &&
-              igabem_tangent_cw(tangent, dcw) == IGABEM_OK;
+    igabem_status status =
+        igabem_tangent_create(s->design.body, s->held[0].solution[m],
+                              galv_model_modes(s->problem->model), s->move, &tangent);
+    if (status == IGABEM_OK)
+        status = igabem_tangent_cw(tangent, dcw);
     igabem_tangent_free(tangent);
-    return ok || core_fail("tangents: %s", igabem_last_error());
+    return core_ok(status, "tangents: %s", igabem_last_error());
 }

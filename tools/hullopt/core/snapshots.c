@@ -36,6 +36,8 @@ static bool solve(size_t m, size_t n, size_t count, double *a, double *b)
         LAPACKE_dgelsd(LAPACK_ROW_MAJOR, (lapack_int)m, (lapack_int)n, (lapack_int)count, a,
                        (lapack_int)n, b, (lapack_int)count, singular, RANK, &rank);
     free(singular);
+    if (info == LAPACK_WORK_MEMORY_ERROR || info == LAPACK_TRANSPOSE_MEMORY_ERROR)
+        return core_no_memory();
     return info == 0 || core_fail("parameters.snapshots: their linear map cannot be found");
 }
 
@@ -202,7 +204,7 @@ static bool way_start(const struct problem *p, const double *u, struct way *w)
         return core_no_memory();
     memcpy(w->map, p->map, modes * params * sizeof *w->map);
     memcpy(w->missing, u, modes * sizeof *u);
-    return galv_displace(p->model, u, w->target) == GALV_OK || core_fail("%s", galv_last_error());
+    return core_ok(galv_displace(p->model, u, w->target), "%s", galv_last_error());
 }
 
 /* Moves `at` by the least change that the map needs for what is missing, within the bounds. */
@@ -251,8 +253,8 @@ static bool look(struct problem *p, const double *u, struct way *w, double *gain
         d[k] = w->grid[k] - parent[k];
         sum += (w->grid[k] - w->target[k]) * (w->grid[k] - w->target[k]);
     }
-    if (galv_project(p->model, d, gained) != GALV_OK)
-        return core_fail("%s", galv_last_error());
+    if (!core_ok(galv_project(p->model, d, gained), "%s", galv_last_error()))
+        return false;
     for (size_t j = 0; j < w->modes; j++) {
         double missing = u[j] - gained[j];
         gained[j] = w->missing[j] - missing;

@@ -136,13 +136,13 @@ static bool solve_one(const struct attitude *at, const igabem_options *options, 
 {
     igabem_solution *solution;
     igabem_forces forces;
-    bool ok = igabem_solve(at->body, options, &solution) == IGABEM_OK;
-    if (ok) {
-        ok = igabem_forces_compute(solution, &forces) == IGABEM_OK;
+    igabem_status status = igabem_solve(at->body, options, &solution);
+    if (status == IGABEM_OK) {
+        status = igabem_forces_compute(solution, &forces);
         igabem_solution_free(solution);
     }
-    if (!ok) {
-        snprintf(row->note, sizeof row->note, "%s: %.200s", who, igabem_last_error());
+    if (!core_ok(status, "%s: %.200s", who, igabem_last_error())) {
+        snprintf(row->note, sizeof row->note, "%s", core_sentence());
         return false;
     }
     *cw = forces.cw * at->area;
@@ -200,7 +200,8 @@ bool verify_run(const struct problem *problem, struct record *record,
         if (!ok)
             break;
         solve_row(&pair, problem->best.hull, &options[i], &rows[i]);
-        ok = record_put_verification(record, i, &rows[i]) && record_update_session(record);
+        ok = !core_lacked_memory() && record_put_verification(record, i, &rows[i]) &&
+             record_update_session(record);
     }
     pair_free(&pair);
     return ok;

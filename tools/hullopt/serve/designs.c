@@ -114,7 +114,7 @@ static const struct evaluation *set_variant(struct worker *w, const struct varia
 static bool fail_job(const struct worker *w, const struct job *job, const char *reason)
 {
     return atomic_load(&w->designs->is_stopping)
-               ? served_fail(job->error, SERVED_STOPPING, STOPPING)
+               ? served_fail(job->error, SERVED_UNAVAILABLE, STOPPING)
                : served_fail(job->error, SERVED_INVALID_OUTPUT, "%s", reason);
 }
 
@@ -123,6 +123,8 @@ static bool evaluate_job(struct worker *w, const struct job *job, const struct e
     struct evaluation e;
     evaluation_start(1, "served", job->u, &e);
     evaluate(&w->problem, &e, NULL, NULL);
+    if (e.no_memory) /* another server may know more of the design */
+        return served_fail(job->error, SERVED_UNAVAILABLE, "%s", e.reason);
     if (e.failed)
         return fail_job(w, job, e.reason);
     variant_output(job->variant, w->designs->config, parent, &e, job->output);
@@ -205,7 +207,7 @@ static bool wait_for(struct designs *d, struct job *job)
     pthread_mutex_lock(&d->lock);
     if (atomic_load(&d->is_stopping)) {
         job->is_done = true;
-        served_fail(job->error, SERVED_STOPPING, STOPPING);
+        served_fail(job->error, SERVED_UNAVAILABLE, STOPPING);
     } else {
         *d->last = job;
         d->last = &job->next;
@@ -264,7 +266,7 @@ void designs_stop(struct designs *d)
     pthread_mutex_lock(&d->lock);
     atomic_store(&d->is_stopping, true);
     for (struct job *job = d->first; job; job = job->next) {
-        served_fail(job->error, SERVED_STOPPING, STOPPING);
+        served_fail(job->error, SERVED_UNAVAILABLE, STOPPING);
         job->is_done = true;
     }
     d->first = NULL;

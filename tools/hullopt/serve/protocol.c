@@ -18,7 +18,7 @@ enum {
 static const char *const FAULTS[SERVED_FAULTS] = {
     [SERVED_INVALID_INPUT] = "InvalidInput",     [SERVED_MODEL_NOT_FOUND] = "ModelNotFound",
     [SERVED_UNSUPPORTED] = "UnsupportedFeature", [SERVED_INVALID_OUTPUT] = "InvalidOutput",
-    [SERVED_STOPPING] = "InvalidOutput",
+    [SERVED_UNAVAILABLE] = "InvalidOutput",
 };
 
 bool served_fail(struct served_error *error, enum served_fault fault, const char *format, ...)
@@ -33,7 +33,7 @@ bool served_fail(struct served_error *error, enum served_fault fault, const char
 
 static bool no_memory(struct served_error *error)
 {
-    return served_fail(error, SERVED_INVALID_OUTPUT, "out of memory");
+    return served_fail(error, SERVED_UNAVAILABLE, "out of memory");
 }
 
 /* What all requests but /Info hold. */
@@ -326,7 +326,7 @@ static unsigned post(size_t n, const struct served *models, size_t call, size_t 
     if (ok)
         return finish(STATUS_OK, answer, text);
     unsigned status = error.fault == SERVED_INVALID_OUTPUT ? STATUS_MODEL
-                      : error.fault == SERVED_STOPPING     ? STATUS_STOPPING
+                      : error.fault == SERVED_UNAVAILABLE  ? STATUS_STOPPING
                                                            : STATUS_INPUT;
     return refuse(status, error.fault, error.sentence, text);
 }

@@ -15,7 +15,7 @@ enum served_fault {
     SERVED_MODEL_NOT_FOUND, /* 400 */
     SERVED_UNSUPPORTED,     /* 400 */
     SERVED_INVALID_OUTPUT,  /* the model's: 500 */
-    SERVED_STOPPING,        /* nobody's: 503 */
+    SERVED_UNAVAILABLE,     /* nobody's: 503 */
     SERVED_FAULTS
 };
 struct served_error {
