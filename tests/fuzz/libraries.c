@@ -56,8 +56,10 @@ static void read_curves(const char *path, size_t n, const uint8_t *bytes)
     size_t curves = 0;
     nurbs_curve **list = NULL;
     nurbs_grid *grid = NULL;
-    if (is_read(nurbs_curves_read_iges(path, &curves, &list), list))
-        nurbs_curves_free(curves, list);
+    nurbs_status status = nurbs_curves_read_iges(path, &curves, &list);
+    if (status != NURBS_OK || curves > 0) /* a file without curves is read as well */
+        is_read(status, list);
+    nurbs_curves_free(curves, list);
     is_read(nurbs_sections_read_iges(path, 0, &grid, &curves), grid);
     nurbs_grid_free(grid);
 }
