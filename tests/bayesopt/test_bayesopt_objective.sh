@@ -170,6 +170,12 @@ grep -q '^4,initial,lost' out || fail "a timeout as transient: $(cat out)"
 sed 's/no licen.cs.e/(/' licence.yaml >bad.yaml
 expect 1 "$tool" run bad.yaml
 says 'objective.transient.pattern is .(., which is no regular expression'
+# Patterns that the C library takes gigabytes for.
+for pattern in a++++++++++++++++++++++++++++++++++++++++ '((a{1,255}){1,255}){2}' '((((((((((((((a+)+)+)+)+)+)+)+)+)+)+)+)+)+)+'; do
+    sed "s/no licen.cs.e/$pattern/" licence.yaml >bad.yaml
+    expect 1 "$tool" run bad.yaml
+    says 'objective.transient.pattern is .*, which makes .* parts when its repetitions are written out, expected at most 10000'
+done
 
 # By hand: a failed point once more, a pending one for somebody else.
 expect 0 "$tool" tell licence.db --retry 3

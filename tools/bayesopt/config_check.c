@@ -10,6 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Of a regular expression: parts as written out, groups within groups. */
+enum { LONGEST_PATTERN = 10000, NESTED = 100 };
+
 /* Every {word} of a text must be a variable. */
 static void check_fields(struct settings_source *source, const char *key, const char *text,
                          size_t length, const struct names *names)
@@ -102,6 +105,54 @@ static void check_model(struct settings_source *source, const struct config *c)
 }
 
 /* What is run and how its results are read. */
+/* Past a bracket expression that begins at '['. */
+static const char *skip_bracket(const char *at)
+{
+    at += at[1] == '^' ? 2 : 1;
+    at += *at == ']';
+    while (*at && *at != ']') {
+        const char *inner =
+            *at == '[' && at[1] && strchr(".=:", at[1]) ? strchr(at + 2, ']') : NULL;
+        at = (inner ? inner : at) + 1;
+    }
+    return *at ? at + 1 : at;
+}
+
+/* How often a part stands there once regcomp() has written out what follows it; 1: no repetition.
+ * *at is past that. */
+static double repetition(const char **at)
+{
+    char kind = *(*at)++, *end;
+    if (kind != '{')
+        return kind == '+' ? 2 : 1; /* a+ is aa* */
+    double least = strtod(*at, &end), most = *end == ',' ? strtod(end + 1, &end) : least;
+    *at = *end == '}' ? end + 1 : end;
+    return fmax(1, fmax(least, most));
+}
+
+/* Parts of a pattern when its repetitions are written out as copies. */
+static double written_out(const char *at)
+{
+    double sum[NESTED] = {0}, last = 0; /* of each group; of the part that a repetition is of */
+    size_t depth = 0;
+    while (*at)
+        if (strchr("*+?{", *at)) {
+            double times = repetition(&at);
+            sum[depth] += (times - 1) * last;
+            last *= times;
+        } else if (*at == '(' && depth + 1 == NESTED) {
+            return INFINITY;
+        } else if (*at == '(') {
+            sum[++depth] = last = 0;
+            at++;
+        } else {
+            last = *at == ')' && depth > 0 ? 1 + sum[depth--] : 1;
+            sum[depth] += last;
+            at = *at == '[' ? skip_bracket(at) : at + (*at == '\\' && at[1] ? 2 : 1);
+        }
+    return sum[0];
+}
+
 static void check_objective(struct settings_source *source, struct config *c)
 {
     struct names names = {.d = c->n_variables,
@@ -128,6 +179,15 @@ static void check_objective(struct settings_source *source, struct config *c)
     char message[200];
     if (c->compiled) /* by an earlier check: options replace what a file says */
         regfree(&c->pattern);
+    double parts = c->transient_pattern ? written_out(c->transient_pattern) : 0;
+    if (parts > LONGEST_PATTERN) {
+        settings_complain(source, "objective.transient.pattern",
+                          "is '%s', which makes %g parts when its repetitions are written out, "
+                          "expected at most %d",
+                          c->transient_pattern, parts, LONGEST_PATTERN);
+        free(c->transient_pattern);
+        c->transient_pattern = NULL;
+    }
     int code = c->transient_pattern ? regcomp(&c->pattern, c->transient_pattern,
                                               REG_EXTENDED | REG_NOSUB | REG_NEWLINE)
                                     : 0;

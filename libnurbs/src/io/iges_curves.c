@@ -101,6 +101,8 @@ static nurbs_status read_spline(const iges_file *file, size_t entity, double sca
         if (status == NURBS_OK && k > 0 && knots[k] < knots[k - 1])
             status = refuse(file, entity, "its knots decrease");
     }
+    if (status == NURBS_OK && !(knots[n] > knots[p]))
+        status = refuse(file, entity, "its knots have no length");
     for (size_t k = 0; k < n && status == NURBS_OK; k++) {
         double *h = net + 4 * k;
         status = iges_real(file, entity, at + k, 1, &h[3]);

@@ -152,6 +152,8 @@ static nurbs_status raw_read(const iges_file *file, size_t entity, raw_surface *
         for (size_t k = 1; k < count && status == NURBS_OK; k++)
             if (raw->knots[d][k] < raw->knots[d][k - 1])
                 status = refuse(file, entity, "its knots decrease");
+        if (status == NURBS_OK && !(raw->knots[d][raw->size[d]] > raw->knots[d][raw->degree[d]]))
+            status = refuse(file, entity, "its knots have no length");
         at += count;
     }
     if (status == NURBS_OK)

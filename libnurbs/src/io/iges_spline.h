@@ -6,7 +6,7 @@
 
 /* Control rows of m numbers (homogeneous) along one direction, any knots. Inserts the ends of the
  * domain [knots[p], knots[n]] until they are clamped and drops what lies outside. knots and rows
- * have room for n + 2 p rows. Returns 1 when anything changed. */
+ * have room for n + 2 p rows; the domain has a length. Returns 1 when anything changed. */
 int clamp_spline(int degree, size_t *n, double *knots, size_t m, double *rows);
 
 #endif
