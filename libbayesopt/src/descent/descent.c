@@ -26,7 +26,8 @@ struct run {
     descent_model model; /* at the point that the search has come to */
     descent_sample candidate;
     double *trial, *step;
-    double *best, least; /* the best that keeps all limits; HUGE_VAL: none yet */
+    double *best, least;     /* the best that keeps all limits; HUGE_VAL: none yet */
+    bayesopt_status failure; /* of a step */
 };
 
 static void swap(descent_sample *a, descent_sample *b)
@@ -212,8 +213,10 @@ static bayesopt_descent_answer value_candidate(struct run *run, double radius, d
 static bayesopt_descent_answer try_step(struct run *run, double radius, double least, double *share)
 {
     descent_model *model = &run->model;
-    double before = progress(run, &model->base), broken = 0;
-    double tau = descent_model_step(model, radius, run->step, &broken);
+    double before = progress(run, &model->base), broken = 0, tau;
+    run->failure = descent_model_step(model, radius, run->step, &broken, &tau);
+    if (run->failure)
+        return BAYESOPT_DESCENT_STOP;
     double promised = before - tau - model->penalty * fmax(broken - model->margin, 0);
     *share = NAN;
     if (!(promised > least))
@@ -236,7 +239,7 @@ static bayesopt_descent_answer try_step(struct run *run, double radius, double l
 
 /* Steps of new derivatives, shorter until one makes progress. While they come as promised the next
  * looks farther, and what one broke of a limit the next mends by its fine values. false: an
- * evaluation said stop. */
+ * evaluation said stop, or run->failure. */
 static bool cycle(struct run *run, double *radius)
 {
     double share = -1;
@@ -282,7 +285,7 @@ static bayesopt_status search(struct run *run)
     for (bool goes_on = true; goes_on && !status;) {
         double before = progress(run, &model->base);
         if (!cycle(run, &radius))
-            return BAYESOPT_STOP_BUDGET;
+            return run->failure ? run->failure : BAYESOPT_STOP_BUDGET;
         goes_on = progress(run, &model->base) < before - LEAST_OF_A_CYCLE;
         radius = fmax(radius, RESTART_RADIUS);
         if (!goes_on && worst_excess(run, &model->base) > 0 && model->penalty < MOST_PENALTY) {
@@ -327,8 +330,11 @@ bayesopt_status bayesopt_descend(const bayesopt_descent_problem *problem, double
     bool ok = run_create(problem, &run);
     status =
         ok ? descent_start(&run.model, x) : bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory");
+    double outside = HUGE_VAL;
+    if (!status)
+        status = descent_model_trespass(&run.model, &outside);
     if (!status) {
-        if (descent_model_trespass(&run.model) <= DESCENT_OUTSIDE)
+        if (outside <= DESCENT_OUTSIDE)
             note_best(&run, run.model.x, &run.model.base);
         status = search(&run);
     }

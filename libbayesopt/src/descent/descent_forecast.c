@@ -83,8 +83,10 @@ bayesopt_status bayesopt_descent_model_minimise(bayesopt_descent_model *model,
     memcpy(model->anchor, centre ? centre : model->x, own->d * sizeof *x);
     model->problem = problem;
     model->margin = margin;
-    *least = descent_model_step(model, radius, x, &over);
+    status = descent_model_step(model, radius, x, &over, least);
     model->problem = own;
+    if (status)
+        return status;
     for (size_t k = 0; k < own->d; k++)
         x[k] = fmin(fmax(model->x[k] + x[k], problem->lower[k]), problem->upper[k]);
     if (broken)

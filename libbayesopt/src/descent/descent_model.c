@@ -152,6 +152,7 @@ struct step {
     double *tolerance;  /* [n_limits] */
     double *limits;     /* [n_limits] */
     double *at, *sides; /* [d], [2][n_limits] of the differences of the known limits */
+    bool lacks_memory;
 };
 
 static double objective(unsigned n, const double *x, double *gradient, void *data)
@@ -302,7 +303,8 @@ static void descend(struct step *s, double clear, double *least, double *d)
     double tau = worst(model, x), over = excess(model, x, tau);
     x[n] = clear * tau;
     x[n + 1] = over + clear - 1;
-    nlopt_optimize(s->search, x, &unused);
+    if (nlopt_optimize(s->search, x, &unused) == NLOPT_OUT_OF_MEMORY)
+        s->lacks_memory = true;
     tau = worst(model, x);
     over = excess(model, x, tau);
     if (trespass(s) > DESCENT_OUTSIDE || !(tau + model->penalty * over < *least))
@@ -356,15 +358,23 @@ static double of_no_step(const struct step *s)
     return tau + model->penalty * excess(model, s->x, tau);
 }
 
-double descent_model_step(const descent_model *model, double radius, double *d, double *broken)
+static bayesopt_status no_memory(void)
+{
+    return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "no memory for a step");
+}
+
+bayesopt_status descent_model_step(const descent_model *model, double radius, double *d,
+                                   double *broken, double *promised)
 {
     enum { EVALUATIONS = 400, SHORTER = 3 };
     const double some = 1e-4; /* of the ratio: less is a step that SLSQP did not find */
     size_t n = model->problem->d;
-    double promised = NAN, least = HUGE_VAL;
+    double least = HUGE_VAL;
     struct step s;
     memset(d, 0, n * sizeof *d);
-    if (step_create(model, &s) && add_rows(&s)) {
+    *promised = NAN;
+    bool ok = step_create(model, &s) && add_rows(&s);
+    if (ok) {
         nlopt_set_min_objective(s.search, objective, (void *)model);
         nlopt_set_xtol_rel(s.search, 1e-7);
         nlopt_set_maxeval(s.search, EVALUATIONS);
@@ -373,18 +383,21 @@ double descent_model_step(const descent_model *model, double radius, double *d, 
             descend_within(&s, ldexp(radius, -k), &least, d);
         if (least < HUGE_VAL) {
             memcpy(s.x, d, n * sizeof *d);
-            promised = worst(model, s.x);
-            *broken = excess(model, s.x, promised);
+            *promised = worst(model, s.x);
+            *broken = excess(model, s.x, *promised);
         }
     }
+    ok = ok && !s.lacks_memory;
     step_free(&s);
-    return promised;
+    return ok ? BAYESOPT_OK : no_memory();
 }
 
-double descent_model_trespass(const descent_model *model)
+bayesopt_status descent_model_trespass(const descent_model *model, double *most)
 {
     struct step s;
-    double most = step_create(model, &s) ? trespass(&s) : HUGE_VAL;
+    bool ok = step_create(model, &s);
+    if (ok)
+        *most = trespass(&s);
     step_free(&s);
-    return most;
+    return ok ? BAYESOPT_OK : no_memory();
 }

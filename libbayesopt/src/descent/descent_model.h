@@ -64,12 +64,15 @@ void descent_model_difference(descent_model *model, const bayesopt_descent_slope
 void descent_model_update(descent_model *model, const double *d, const descent_sample *moved);
 
 /* Minimises over the box and the radius about the anchor, in half widths of the box. Fills the step
- * d[d] and by how much it breaks the tightened limits; returns the largest ratio of the objective
- * that it promises, NAN when no step keeps the known limits or there is no memory. */
-double descent_model_step(const descent_model *model, double radius, double *d, double *broken);
+ * d[d], by how much it breaks the tightened limits and the largest ratio of the objective that it
+ * promises, NAN when no step keeps the known limits.
+ * @return BAYESOPT_ERROR_MEMORY */
+bayesopt_status descent_model_step(const descent_model *model, double radius, double *d,
+                                   double *broken, double *promised);
 
-/* By how much model->x breaks the known limits; HUGE_VAL where they are not known. */
-double descent_model_trespass(const descent_model *model);
+/* By how much model->x breaks the known limits; HUGE_VAL where they are not known.
+ * @return BAYESOPT_ERROR_MEMORY */
+bayesopt_status descent_model_trespass(const descent_model *model, double *most);
 
 /* descent.c: the fine values at start (NULL: 0), at which every ratio is one; all derivatives
  * there, BAYESOPT_STOP_BUDGET where an evaluation says stop. */

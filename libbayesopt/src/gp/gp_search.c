@@ -156,8 +156,10 @@ bayesopt_status gp_search_climb(struct gp_search *fit, const double *start, size
     for (unsigned i = 0; i < k; i++)
         theta[i] = fmin(fmax(start[i], low[i]), high[i]);
     /* A failed line search still leaves the best point seen in fit->best. */
-    nlopt_optimize(search, theta, &value);
+    nlopt_result result = nlopt_optimize(search, theta, &value);
     nlopt_destroy(search);
+    if (result == NLOPT_OUT_OF_MEMORY)
+        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "gp: out of memory");
     return fit->cancelled ? bayesopt_fail(BAYESOPT_ERROR_CANCELLED, "gp: the fit was cancelled")
                           : BAYESOPT_OK;
 }

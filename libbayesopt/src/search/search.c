@@ -296,10 +296,11 @@ static bayesopt_status climb(struct climber *c, const double *u)
         nlopt_add_inequality_mconstraint(opt, (unsigned)m, input_constraints, &broyden, tolerances);
     }
     memcpy(at, u, d * sizeof *at);
-    nlopt_optimize(opt, at, &value);
+    nlopt_result result = nlopt_optimize(opt, at, &value); /* the best is in c in any other case */
     nlopt_destroy(opt);
     free(broyden.u);
-    return BAYESOPT_OK;
+    return result == NLOPT_OUT_OF_MEMORY ? bayesopt_fail(BAYESOPT_ERROR_MEMORY, "out of memory")
+                                         : BAYESOPT_OK;
 }
 
 /* Value number t that a sweep tries for variable j at u; false: there are no more. Whole numbers

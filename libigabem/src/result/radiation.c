@@ -113,8 +113,10 @@ igabem_status radiation_sources(const igabem_solution *solution, enum radiation_
                                 solution->surface->nx * solution->surface->ny * BASE_FLOW_SIDE *
                                     BASE_FLOW_SIDE,
                                 (const double(*)[7])solution->cell_source, 0, NULL);
-    if (status)
+    if (status) {
         sources_free(*sources);
+        *sources = NULL;
+    }
     return status;
 }
 

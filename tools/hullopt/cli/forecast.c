@@ -11,10 +11,10 @@
 static void put(json_t *o, const char *name, double ratio)
 {
     if (!isnan(ratio))
-        json_result_set(o, name, json_real(100 * (1 - ratio)));
+        json_result_set(o, name, isfinite(ratio) ? json_real(100 * (1 - ratio)) : json_null());
 }
 
-/* Reductions of the objective in per cent. */
+/* Reductions of the objective in per cent; null: no step was found that keeps the limits. */
 static json_t *result(const struct forecast *f)
 {
     json_t *o = json_object(), *shares = json_object(), *without = json_object();
@@ -33,6 +33,16 @@ static json_t *result(const struct forecast *f)
     return o;
 }
 
+static void print_row(const char *kind, const char *name, double ratio, const char *remark)
+{
+    char label[64];
+    snprintf(label, sizeof label, "%s%s", kind, name);
+    if (isfinite(ratio))
+        printf("%-28s%6.1f %%%s\n", label, 100 * (1 - ratio), remark);
+    else if (!isnan(ratio))
+        printf("%-28sno step found that keeps the limits\n", label);
+}
+
 static bool print_text(const struct forecast *f)
 {
     printf("forecast from one Jacobian, ");
@@ -41,14 +51,16 @@ static bool print_text(const struct forecast *f)
                f->solves ? ", the others by " : "");
     if (f->solves)
         printf("%zu coarse solves", f->solves);
-    printf(": reductions of the objective\n%-28s%6.1f %%\n", "as configured", 100 * (1 - f->asked));
-    for (size_t i = 0; i < FORECAST_SHARES; i++)
-        if (!isnan(f->confirmed[i]))
-            printf("confirm: %-19g%6.1f %%%s\n", FORECAST_SHARE[i], 100 * (1 - f->confirmed[i]),
-                   FORECAST_SHARE[i] == 1 ? ", in the worst of all models" : "");
+    printf(": reductions of the objective\n");
+    print_row("as configured", "", f->asked, "");
+    char share[16];
+    for (size_t i = 0; i < FORECAST_SHARES; i++) {
+        snprintf(share, sizeof share, "%g", FORECAST_SHARE[i]);
+        print_row("confirm: ", share, f->confirmed[i],
+                  FORECAST_SHARE[i] == 1 ? ", in the worst of all models" : "");
+    }
     for (size_t k = 0; k < constraints_count(); k++)
-        if (!isnan(f->without[k]))
-            printf("without %-20s%6.1f %%\n", constraints_name(k), 100 * (1 - f->without[k]));
+        print_row("without ", constraints_name(k), f->without[k], "");
     return cli_printed() == CLI_OK;
 }
 

@@ -155,8 +155,10 @@ bool conventional_run(struct search *search, const struct method_row *method)
         nlopt_srand((unsigned long)search->problem->config->search_seed);
         ok = prepare(&c, u + 2 * n) || core_fail("search: %s cannot be set up", method->name);
         if (ok) {
-            nlopt_optimize(c.opt, u, &least);
-            ok = ledger_stop(&c.ledger, "the method ended by itself");
+            nlopt_result result = nlopt_optimize(c.opt, u, &least);
+            ok = result == NLOPT_OUT_OF_MEMORY
+                     ? core_no_memory()
+                     : ledger_stop(&c.ledger, "the method ended by itself");
         }
     } else {
         ok = ok && core_no_memory();

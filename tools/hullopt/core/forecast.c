@@ -35,8 +35,8 @@ static bool drop(const struct config *config, size_t k, struct config *without)
     return constraints_drop(without, k);
 }
 
-static double least(struct descent *d, bayesopt_descent_model *model, const struct config *config,
-                    double *step)
+static bool least(struct descent *d, bayesopt_descent_model *model, const struct config *config,
+                  double *step, double *ratio)
 {
     const struct config *keep = d->base->config;
     d->base->config = config;
@@ -46,24 +46,29 @@ static double least(struct descent *d, bayesopt_descent_model *model, const stru
     problem.bound = config->pressure;
     problem.n_limits = limits_count(config);
     descent_weigh(config, problem.n_settings, setting);
-    double broken, ratio;
-    bayesopt_status status = bayesopt_descent_model_minimise(
-        model, &problem, NULL, INFINITY, FORECAST_MARGIN, step, &ratio, &broken);
+    double broken;
+    bayesopt_status status = bayesopt_descent_model_minimise(model, &problem, NULL, INFINITY,
+                                                             FORECAST_MARGIN, step, ratio, &broken);
     d->base->config = keep;
-    return !status && broken < FORECAST_OUTSIDE ? ratio : NAN;
+    if (status || !(broken < FORECAST_OUTSIDE))
+        *ratio = INFINITY;
+    return status != BAYESOPT_ERROR_MEMORY || core_no_memory();
 }
 
-static void fill(struct descent *d, bayesopt_descent_model *model, struct forecast *f, double *step)
+static bool fill(struct descent *d, bayesopt_descent_model *model, struct forecast *f, double *step)
 {
     struct config other = *d->base->config;
-    for (size_t i = 0; i < FORECAST_SHARES && other.models; i++) {
+    bool ok = true;
+    for (size_t i = 0; i < FORECAST_SHARES && other.models && ok; i++) {
         double share = FORECAST_SHARE[i];
         other.confirm = share == 1 ? NAN : share;
-        f->confirmed[i] = least(d, model, &other, step);
+        ok = least(d, model, &other, step, &f->confirmed[i]);
     }
-    f->asked = least(d, model, d->base->config, step);
-    for (size_t k = 0; k < constraints_count() && k < FORECAST_ROWS; k++)
-        f->without[k] = drop(d->base->config, k, &other) ? least(d, model, &other, step) : NAN;
+    ok = ok && least(d, model, d->base->config, step, &f->asked);
+    for (size_t k = 0; k < constraints_count() && k < FORECAST_ROWS && ok; k++)
+        if (drop(d->base->config, k, &other))
+            ok = least(d, model, &other, step, &f->without[k]);
+    return ok;
 }
 
 /* The model at the original; descent_end() is to be called whatever comes of it. */
@@ -92,7 +97,7 @@ bool forecast_run(struct problem *problem, struct forecast *f)
     double *step = calloc(galv_model_modes(problem->model), sizeof *step);
     bool ok = (step || core_no_memory()) && model_parent(problem, &d, &model);
     if (ok) {
-        fill(&d, model, f, step);
+        ok = fill(&d, model, f, step);
         f->solves = d.differentiated;
         f->tangents = d.tangents;
         f->settings = d.problem.n_settings;

@@ -9,7 +9,8 @@ enum { FORECAST_SHARES = 5, FORECAST_ROWS = 32 };
 /* Of the gain that the other models must see; 1: the worst of all models is the objective. */
 static const double FORECAST_SHARE[FORECAST_SHARES] = {0, 0.25, 0.5, 0.75, 1};
 
-/* Ratios of the objective to the parent's; NAN: not asked for, or no step is allowed. */
+/* Ratios of the objective to the parent's; NAN: not asked for, INFINITY: no step was found that
+ * keeps the limits. */
 struct forecast {
     double asked;                      /* as configured */
     double confirmed[FORECAST_SHARES]; /* with search.confirm of each share */
