@@ -152,8 +152,10 @@ static void test_refusals(void)
     igabem_solution_free(solution);
     options.surface_cells = 2.0;
     refused(igabem_solve(hull, &options, &none), IGABEM_ERROR_ARGUMENT, "surface_cells");
-    /* Three cells a wave. */
+    /* Three cells a wave are no solution, six are one to be warned of. */
     options = exterior(0.15, 21.0);
+    refused(igabem_solve(hull, &options, &none), IGABEM_ERROR_NUMERIC, "state more surface_cells");
+    options = exterior(0.15, 42.0);
     solution = solve(hull, &options);
     const char *sentence = igabem_solution_warning(solution, NULL, 0);
     CU_ASSERT_PTR_NOT_NULL_FATAL(sentence);

@@ -123,18 +123,24 @@ bayesopt_status bayesopt_predict_outcome(bayesopt *bo, size_t k, size_t n, const
     return status;
 }
 
-static double loo_error(const bayesopt_gp *gp, size_t n)
+/* Root mean square of the leave-one-out errors; NAN: none. */
+static bayesopt_status loo_error(const bayesopt_gp *gp, size_t n, double *rms)
 {
     double *mean = malloc((3 * n + 1) * sizeof *mean), sum = 0;
-    if (!mean || bayesopt_gp_loo(gp, mean, mean + n)) {
+    *rms = NAN;
+    if (!mean)
+        return bayesopt_fail(BAYESOPT_ERROR_MEMORY, "no memory for %zu points", n);
+    bayesopt_status status = bayesopt_gp_loo(gp, mean, mean + n);
+    if (status) {
         free(mean);
-        return NAN;
+        return status == BAYESOPT_ERROR_MEMORY ? status : BAYESOPT_OK;
     }
     bayesopt_gp_outputs(gp, mean + 2 * n);
     for (size_t i = 0; i < n; i++)
         sum += (mean[2 * n + i] - mean[i]) * (mean[2 * n + i] - mean[i]);
     free(mean);
-    return sqrt(sum / (double)n);
+    *rms = sqrt(sum / (double)n);
+    return BAYESOPT_OK;
 }
 
 bayesopt_status bayesopt_model(bayesopt *bo, bayesopt_model_info *info, double *lengthscale)
@@ -143,11 +149,14 @@ bayesopt_status bayesopt_model(bayesopt *bo, bayesopt_model_info *info, double *
     NEED(info);
     bayesopt_status status = ensure_model(bo);
     bayesopt_gp_info gp_info;
+    double rms;
     bayesopt_gp_parameters parameters = {.lengthscale = lengthscale};
     if (!status)
         status = bayesopt_gp_get_info(bo->surrogates.gps[0], &gp_info);
     if (!status)
         status = bayesopt_gp_get_parameters(bo->surrogates.gps[0], &parameters);
+    if (!status)
+        status = loo_error(bo->surrogates.gps[0], gp_info.n, &rms);
     if (status)
         return status;
     for (size_t j = 0; j < bo->d && lengthscale; j++)
@@ -163,7 +172,7 @@ bayesopt_status bayesopt_model(bayesopt *bo, bayesopt_model_info *info, double *
         .jitter = gp_info.jitter,
         .signal_variance = parameters.signal,
         .noise_variance = parameters.noise,
-        .loo_rms = loo_error(bo->surrogates.gps[0], gp_info.n),
+        .loo_rms = rms,
         .repeat_sd = surrogates_repeat_deviation(bo),
         .trust_length = strategy_trust_length(bo),
     };
