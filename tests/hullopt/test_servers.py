@@ -140,8 +140,12 @@ try:
     assert len(history("design")[0]) == 10 and history("design")[1] == 1 and once.asked == 10, once.asked
 
     # Behind one URL a balancer answers 503 until it has noticed, after some seconds, that a machine is gone.
-    slow = Broken(url, 4, lambda h, body, ask: h.answer(503, b"{}") if time.time() < slow.until else h.answer(*ask()))
-    slow.until = time.time() + 10
+    def gone(handler, body, ask):
+        slow.until = slow.until or time.time() + 10
+        handler.answer(*((503, b"{}") if time.time() < slow.until else ask()))
+
+    slow = Broken(url, 4, gone)
+    slow.until = None
     end = run(config, "slow", "--server", slow.url)
     assert end.returncode == 0 and "not asked any more" not in end.stderr, end.stderr
     assert history("slow") == (wanted, 0) and slow.asked > 10, slow.asked
