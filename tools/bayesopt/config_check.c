@@ -104,7 +104,6 @@ static void check_model(struct settings_source *source, const struct config *c)
                                   c->variables[j].name, c->variables[j].labels[i]);
 }
 
-/* What is run and how its results are read. */
 /* Past a bracket expression that begins at '['. */
 static const char *skip_bracket(const char *at)
 {
@@ -153,6 +152,7 @@ static double written_out(const char *at)
     return sum[0];
 }
 
+/* What is run and how its results are read. */
 static void check_objective(struct settings_source *source, struct config *c)
 {
     struct names names = {.d = c->n_variables,
